@@ -13,6 +13,11 @@ fail() {
   exit 1
 }
 
+# need PROGRAM PACKAGE: ends with the name of the Debian package if the program is not there.
+need() {
+  command -v "$1" >/dev/null || fail "'$1' is not installed (Debian package $2; scripts/setup.sh installs what is needed)"
+}
+
 step_number=0
 # step TITLE: announces the next step with the time since the script started.
 step() {
