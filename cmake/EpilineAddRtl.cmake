@@ -1,0 +1,116 @@
+# From a C++ top to a linkable simulation model of its Verilog, at build time.
+#
+# epiline_add_rtl(TARGET TOP top SOURCE file.cpp [CLOCK 6ns] [TARGET ecp5] [DEFINES NAME=VALUE..] [INCLUDES folder..]
+#                 [OPTIONS option..])
+#   Runs epiline-hls into <binary dir>/TARGET.rtl (top.v, top.graph, report.json, report.txt), then does what
+#   epiline_add_verilog_model does. The folder is TARGET's property EPILINE_RTL_FOLDER. INCLUDES are added to the include
+#   directories of epiline_hls, i.e. of hls/ itself. OPTIONS are passed to epiline-hls as they are.
+#
+# epiline_add_verilog_model(TARGET TOP module VERILOG file.v.. REPORT report.json [DEPENDS ..])
+#   Runs Verilator and compiles the model. TARGET is a static library; "TARGET_model.hpp" declares
+#   epiline::cosim::make_TARGET_model(seed). REPORT's key "interface" names the ports.
+#
+# Both targets are built when something that is built links them.
+
+find_program(EPILINE_VERILATOR verilator REQUIRED DOC "Verilator (Debian package verilator)")
+find_program(EPILINE_MAKE NAMES make gmake REQUIRED DOC "GNU make, which builds Verilator's output (Debian package make)")
+find_program(EPILINE_PYTHON NAMES python3 REQUIRED DOC "Python 3 (Debian package python3)")
+execute_process(COMMAND ${EPILINE_VERILATOR} --getenv VERILATOR_ROOT
+                OUTPUT_VARIABLE EPILINE_VERILATOR_ROOT OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+
+# -march=native is worth a third of the speed; the models run on the machine that built them.
+set(EPILINE_MODEL_FLAGS "-O2 -march=native" CACHE STRING "Compiler flags of the simulation models")
+
+# The run-time library of every Verilator model, once.
+if(NOT TARGET epiline_verilated)
+  add_library(epiline_verilated STATIC
+    ${EPILINE_VERILATOR_ROOT}/include/verilated.cpp
+    ${EPILINE_VERILATOR_ROOT}/include/verilated_threads.cpp)
+  target_include_directories(epiline_verilated SYSTEM PUBLIC
+    ${EPILINE_VERILATOR_ROOT}/include ${EPILINE_VERILATOR_ROOT}/include/vltstd)
+  target_compile_options(epiline_verilated PRIVATE -w)
+  target_link_libraries(epiline_verilated PUBLIC Threads::Threads)
+endif()
+
+function(epiline_add_verilog_model target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TOP;REPORT" "VERILOG;DEPENDS")
+  foreach(required TOP REPORT VERILOG)
+    if(NOT arg_${required})
+      message(FATAL_ERROR "epiline_add_verilog_model(${target}): ${required} is missing")
+    endif()
+  endforeach()
+
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}.model)
+  set(make_model ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../tb/cosim/make_model.py)
+  set(archive ${folder}/V${target}__ALL.a)
+  # Verilator's own makefile compiles the model: the number of files it splits the model into is known only when it ran.
+  add_custom_command(
+    OUTPUT ${archive}
+    BYPRODUCTS ${folder}/V${target}.h
+    COMMAND ${CMAKE_COMMAND} -E rm -rf ${folder}
+    COMMAND ${EPILINE_VERILATOR} --cc --quiet-exit --no-timing -O3 --x-assign fast --x-initial unique --noassert
+            --output-split 8000 --output-split-cfuncs 500 -Wno-UNOPTFLAT
+            --top-module ${arg_TOP} --prefix V${target} --Mdir ${folder} ${arg_VERILOG}
+    COMMAND ${EPILINE_MAKE} --silent -C ${folder} -f V${target}.mk -j2 V${target}__ALL.a
+            CXX=${CMAKE_CXX_COMPILER} AR=${CMAKE_AR} VM_PARALLEL_BUILDS=1 CFG_CXXFLAGS_STD=-std=c++20
+            "OPT_FAST=${EPILINE_MODEL_FLAGS}" OPT_SLOW=-O1 "USER_CPPFLAGS=-w -fPIC"
+    DEPENDS ${arg_VERILOG} ${arg_DEPENDS}
+    COMMENT "Verilating ${target}"
+    VERBATIM)
+  add_custom_command(
+    OUTPUT ${folder}.binding/${target}_model.cpp ${folder}.binding/${target}_model.hpp
+    COMMAND ${EPILINE_PYTHON} ${make_model} ${arg_REPORT} ${target} ${folder}.binding
+    DEPENDS ${make_model} ${arg_REPORT} ${arg_DEPENDS}
+    COMMENT "Binding ${target}"
+    VERBATIM)
+  set_source_files_properties(${folder}.binding/${target}_model.cpp PROPERTIES OBJECT_DEPENDS ${archive})
+
+  add_custom_target(${target}_verilated DEPENDS ${archive} ${folder}.binding/${target}_model.hpp)
+  add_library(${target} STATIC EXCLUDE_FROM_ALL ${folder}.binding/${target}_model.cpp)
+  add_dependencies(${target} ${target}_verilated)
+  target_include_directories(${target} PUBLIC ${folder}.binding PRIVATE ${folder})
+  target_link_libraries(${target} PUBLIC epiline_tb_includes ${archive} epiline_verilated)
+endfunction()
+
+function(epiline_add_rtl target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TOP;SOURCE;CLOCK;TARGET" "DEFINES;INCLUDES;OPTIONS")
+  foreach(required TOP SOURCE)
+    if(NOT arg_${required})
+      message(FATAL_ERROR "epiline_add_rtl(${target}): ${required} is missing")
+    endif()
+  endforeach()
+  if(NOT arg_CLOCK)
+    set(arg_CLOCK 6ns)
+  endif()
+  if(NOT arg_TARGET)
+    set(arg_TARGET ecp5)
+  endif()
+  cmake_path(ABSOLUTE_PATH arg_SOURCE NORMALIZE)
+  list(TRANSFORM arg_DEFINES PREPEND -D)
+  list(TRANSFORM arg_INCLUDES PREPEND -I)
+
+  # Written to a folder of its own first: a compiler that was rebuilt but writes the same Verilog costs no new model.
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}.rtl)
+  set(names ${arg_TOP}.v ${arg_TOP}.graph report.json report.txt)
+  list(TRANSFORM names PREPEND ${folder}.fresh/ OUTPUT_VARIABLE fresh_files)
+  list(TRANSFORM names PREPEND ${folder}/ OUTPUT_VARIABLE files)
+  add_custom_command(
+    OUTPUT ${fresh_files}
+    COMMAND epiline-hls ${arg_SOURCE} --top ${arg_TOP} --clock ${arg_CLOCK} --target ${arg_TARGET} -o ${folder}.fresh
+            --depfile ${folder}.d ${arg_DEFINES} ${arg_INCLUDES} ${arg_OPTIONS}
+    DEPENDS epiline-hls ${arg_SOURCE}
+    DEPFILE ${folder}.d
+    COMMENT "Compiling ${arg_TOP} of ${target} to Verilog"
+    VERBATIM)
+  add_custom_command(
+    OUTPUT ${files}
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${folder}
+    COMMAND ${CMAKE_COMMAND} -E copy_if_different ${fresh_files} ${folder}
+    DEPENDS ${fresh_files}
+    VERBATIM)
+  add_custom_target(${target}_verilog DEPENDS ${files})
+  epiline_add_verilog_model(${target} TOP ${arg_TOP} VERILOG ${folder}/${arg_TOP}.v REPORT ${folder}/report.json)
+  add_dependencies(${target}_verilated ${target}_verilog)
+  add_dependencies(${target} ${target}_verilog)
+  set_target_properties(${target} PROPERTIES EPILINE_RTL_FOLDER ${folder})
+endfunction()

@@ -1,0 +1,76 @@
+#pragma once
+// A generated module in simulation, seen only through the RTL interface: clock, reset and ports of valid, ready and
+// payload. Verilator is hidden behind it; tb/cosim/make_model.py writes the binding of each module.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace epiline::cosim {
+
+enum class port_kind : std::uint8_t {
+  stream,  // s_axis_NAME_* or m_axis_NAME_*
+  call,    // the scalars by value: one token a call of the top
+  result,  // a scalar by reference: one token a call
+};
+
+/// One signal of a port's payload.
+struct model_field {
+  std::string name;     // of the C++ source: "tdata", "tlast", or a scalar's name
+  unsigned width = 1;   // bits
+  unsigned offset = 0;  // its lowest bit in the token
+};
+
+struct model_port {
+  std::string name;
+  port_kind kind = port_kind::stream;
+  bool input = true;
+  unsigned width = 1;  // bits of a token
+  std::vector<model_field> fields;
+
+  /// The field of that name, or null.
+  [[nodiscard]] const model_field* find(std::string_view field_name) const {
+    for (const model_field& field : fields) {
+      if (field.name == field_name) return &field;
+    }
+    return nullptr;
+  }
+};
+
+/// One instance of a module. A port is named by its index in ports().
+///
+/// A clock period of a test is: set the inputs, settle(), look at the outputs, rising_edge(). Outputs are meaningful
+/// only after settle().
+class rtl_model {
+ public:
+  rtl_model() = default;
+  rtl_model(const rtl_model&) = delete;
+  rtl_model& operator=(const rtl_model&) = delete;
+  virtual ~rtl_model() = default;
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] const std::vector<model_port>& ports() const { return ports_; }
+
+  virtual void set_reset(bool active) = 0;
+  /// Clock low; combinational logic follows the inputs.
+  virtual void settle() = 0;
+  virtual void rising_edge() = 0;
+
+  /// Payload and tvalid of an input port; tready of it. `token` holds (width + 31) / 32 words.
+  virtual void set_token(std::size_t port, const std::uint32_t* token) = 0;
+  virtual void set_valid(std::size_t port, bool value) = 0;
+  [[nodiscard]] virtual bool ready(std::size_t port) const = 0;
+
+  /// Payload and tvalid of an output port; tready of it.
+  virtual void get_token(std::size_t port, std::uint32_t* token) const = 0;
+  [[nodiscard]] virtual bool valid(std::size_t port) const = 0;
+  virtual void set_ready(std::size_t port, bool value) = 0;
+
+ protected:
+  std::string name_;
+  std::vector<model_port> ports_;
+};
+
+}  // namespace epiline::cosim

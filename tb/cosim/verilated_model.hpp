@@ -1,0 +1,69 @@
+#pragma once
+// What the bindings written by make_model.py share: moving bits between token words and Verilator's signal types, and
+// the clocking of a Verilator model.
+
+#include <verilated.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "cosim/model.hpp"
+#include "cosim/token_list.hpp"
+
+namespace epiline::cosim {
+
+/// Bits [offset, offset + width) of `token` into a signal of that width.
+template <class Signal>
+void put_field(Signal& signal, std::span<const std::uint32_t> token, unsigned offset, unsigned width) {
+  signal = static_cast<Signal>(bits_at(token, offset, width));
+}
+template <std::size_t Words>
+void put_field(VlWide<Words>& signal, std::span<const std::uint32_t> token, unsigned offset, unsigned width) {
+  for (unsigned word = 0; word < Words; ++word) {
+    const unsigned rest = width - 32 * word;
+    signal[word] = static_cast<EData>(bits_at(token, offset + 32 * word, rest < 32 ? rest : 32));
+  }
+}
+
+/// A signal of `width` bits into bits [offset, offset + width) of `token`.
+template <class Signal>
+void get_field(const Signal& signal, std::span<std::uint32_t> token, unsigned offset, unsigned width) {
+  set_bits_at(token, offset, width, signal);
+}
+template <std::size_t Words>
+void get_field(const VlWide<Words>& signal, std::span<std::uint32_t> token, unsigned offset, unsigned width) {
+  for (unsigned word = 0; word < Words; ++word) {
+    const unsigned rest = width - 32 * word;
+    set_bits_at(token, offset + 32 * word, rest < 32 ? rest : 32, signal[word]);
+  }
+}
+
+/// `Top` is the class Verilator wrote. Registers and memories without a reset start with random bits of `seed`, so that
+/// a design which trusts them gives results that change with the seed.
+template <class Top>
+class verilated_model : public rtl_model {
+ public:
+  explicit verilated_model(std::uint64_t seed) {
+    context_.randReset(2);
+    context_.randSeed(static_cast<int>(seed % 0x7ffffffeu) + 1);
+    top_ = std::make_unique<Top>(&context_);
+  }
+  ~verilated_model() override { top_->final(); }
+
+  void set_reset(bool active) override { top_->rst = active; }
+  void settle() override {
+    top_->clk = 0;
+    top_->eval();
+  }
+  void rising_edge() override {
+    top_->clk = 1;
+    top_->eval();
+  }
+
+ protected:
+  VerilatedContext context_;
+  std::unique_ptr<Top> top_;
+};
+
+}  // namespace epiline::cosim
