@@ -2,6 +2,7 @@
 # shellcheck shell=bash
 
 set -euo pipefail
+script=$(realpath "$0")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 # Compilers and sub-programs obey the presets, not what happens to be set in the caller's environment.
@@ -11,6 +12,11 @@ unset CC CXX CFLAGS CXXFLAGS LDFLAGS CMAKE_GENERATOR
 fail() {
   printf '%s: error: %s\n' "$(basename "$0")" "$*" >&2
   exit 1
+}
+
+# usage: prints the comment at the head of the running script.
+usage() {
+  sed -n '2,$ { /^# shellcheck/q; /^#/!q; s/^# \{0,1\}//; p }' "$script"
 }
 
 # need PROGRAM PACKAGE: ends with the name of the Debian package if the program is not there.

@@ -28,7 +28,7 @@ for argument in "$@"; do
     --lint) packages+=("${lint_packages[@]}") ;;
     --check) check_only=yes ;;
     -h | --help)
-      sed -n '2,6s/^# \{0,1\}//p' "$0"
+      usage
       exit 0
       ;;
     *) fail "unknown argument '$argument' (known: --lint, --check)" ;;

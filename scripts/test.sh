@@ -17,7 +17,7 @@ for argument in "$@"; do
     --all) suffix=-all ;;
     --debug) preset=debug ;;
     -h | --help)
-      sed -n '2,9s/^# \{0,1\}//p' "$0"
+      usage
       exit 0
       ;;
     *) fail "unknown argument '$argument' (known: --all, --debug)" ;;
