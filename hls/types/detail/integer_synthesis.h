@@ -1,0 +1,81 @@
+#pragma once
+// Back end of ap_int.h for the synthesis build (clang with -D__SYNTHESIS__): every value is a `_BitInt` of its exact
+// width, so that the LLVM IR consists of iN operations and nothing else. detail/integer_native.h is its twin and
+// declares the same names; ap_int.h includes exactly one of them.
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#pragma clang diagnostic push
+#pragma clang diagnostic ignored "-Wzero-length-array"
+#pragma clang diagnostic ignored "-Wbit-int-extension"
+
+namespace epiline::ap::backend {
+
+template <int W, bool S>
+struct raw_of {
+  using type = unsigned _BitInt(W);
+};
+// `_BitInt(1)` does not exist: values of ap_int<1> (0 and -1) are computed in two bits and stored in one.
+template <int W>
+struct raw_of<W, true> {
+  using type = _BitInt(W < 2 ? 2 : W);
+};
+
+/// The type values of ap_int_base<W, S> are computed in.
+template <int W, bool S>
+using raw = typename raw_of<W, S>::type;
+
+/// `v` as a raw<W, S>; the caller knows that it fits.
+template <int W, bool S, class R>
+constexpr raw<W, S> convert(R v) {
+  return static_cast<raw<W, S>>(v);
+}
+
+/// `v` modulo 2^W, as a raw<W, S>.
+template <int W, bool S, class R>
+constexpr raw<W, S> wrap(R v) {
+  if constexpr (W == 1 && S) {
+    return static_cast<raw<1, true>>(-static_cast<raw<2, true>>(static_cast<raw<1, false>>(v)));
+  } else {
+    return static_cast<raw<W, S>>(v);
+  }
+}
+
+/// The low bits of `v` as the C integer T.
+template <class T, class R>
+constexpr T to_c(R v) {
+  return static_cast<T>(v);
+}
+
+/// What an object of ap_int_base<W, S> holds. The zero-length array costs nothing and carries width and sign into the
+/// LLVM type of every token: { iN, [0 x [W x i8]] } if unsigned, { iN, [0 x [W x i16]] } if signed. Packed, so that it
+/// does not raise the alignment: padding in an LLVM struct looks like a member.
+template <int W, bool S>
+struct storage {
+  using value_type = raw<W, S && (W > 1)>;
+  value_type value;
+  std::conditional_t<S, short, char> width_tag[0][W] __attribute__((packed));
+  storage() = default;
+  constexpr explicit storage(raw<W, S> v) : value(static_cast<value_type>(v)), width_tag{} {}
+  constexpr raw<W, S> load() const { return wrap<W, S>(value); }
+};
+
+/// `v` with its W bits in reverse order.
+template <int W>
+constexpr raw<W, false> reverse_bits(raw<W, false> v) {
+  if constexpr (W == 1) {
+    return v;
+  } else {
+    return __builtin_elementwise_bitreverse(v);
+  }
+}
+
+constexpr void check_bit_index(int, int) {}
+constexpr void check_range(int, int, int) {}
+constexpr void report_division_by_zero(int, bool, int, bool) {}
+
+}  // namespace epiline::ap::backend
+
+#pragma clang diagnostic pop
