@@ -1,0 +1,43 @@
+#pragma once
+#include <type_traits>
+
+#include <ap_int.h>
+
+#include "kernels/level_array.hpp"
+
+namespace epiline::kernels {
+
+/// Which candidates take part: level d of the pixel in column x does iff the pixel is one of the frame, d <= x (its
+/// right partner lies in the frame) and d < the number of levels asked for. All others get the largest cost, which no
+/// true SAD reaches; so this is the one place where candidates are masked, and every kernel behind it just compares
+/// costs.
+///
+/// d = 0 always takes part in a pixel of the frame.
+template <class Config, class Costs>
+class candidate_mask {
+ public:
+  static constexpr int lanes = Config::pixels_per_beat;
+  static constexpr int levels = Config::levels;
+
+  /// x: column of lane 0; pixel_in[l]: lane l is a pixel of the frame.
+  template <class Column, class Levels>
+  static Costs step(const Costs& costs, Column x, const bool (&pixel_in)[lanes], Levels levels_used) {
+#pragma HLS INLINE
+    using cost_t = std::remove_cv_t<std::remove_reference_t<decltype(costs.at[0][0])>>;
+    using level_t = ap_uint<8>;
+    Costs result;
+    for (int lane = 0; lane < lanes; ++lane) {
+      const auto column = x + lane;
+      const level_t last_column_level = column < levels - 1 ? level_t(column) : level_t(levels - 1);
+      const level_t last_level_used = levels_used - 1;
+      const level_t last = last_column_level < last_level_used ? last_column_level : last_level_used;
+      for (int d = 0; d < levels; ++d) {
+        const bool takes_part = pixel_in[lane] && level_t(d) <= last;
+        result.at[lane][d] = takes_part ? costs.at[lane][d] : cost_t(~cost_t(0));
+      }
+    }
+    return result;
+  }
+};
+
+}  // namespace epiline::kernels

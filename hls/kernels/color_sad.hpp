@@ -1,0 +1,89 @@
+#pragma once
+#include <ap_int.h>
+
+#include "kernels/color.hpp"
+#include "kernels/column_sum.hpp"
+#include "kernels/row_sum.hpp"
+#include "window/line_buffer.hpp"
+
+namespace epiline::kernels {
+
+/// Colour SAD over a square window: C(x, y, d) = sum over the N x N pixels around (x, y) of |dR| + |dG| + |dB| between
+/// left pixel x and right pixel max(x - d, 0). Two differences a level and lane (the row that enters the window, the
+/// row that leaves it) and four adders, whatever N.
+///
+/// Border policy: pixels outside the frame contribute 0. Costs of candidates d > x are meaningless, they must not win.
+/// Lane l of the result belongs to the pixel `window_radius` rows above and `delay_beats` beats before the newest one.
+///
+/// Config: levels, pixels_per_beat, max_width, window_radius.
+template <class Config>
+class color_sad {
+ public:
+  static constexpr int lanes = Config::pixels_per_beat;
+  static constexpr int levels = Config::levels;
+  static constexpr int window_rows = 2 * Config::window_radius + 1;
+  static constexpr int delay_beats = row_sum<Config>::delay_beats;
+  using beat_t = ap_uint<lanes * color_bits>;
+  using cost_t = typename row_sum<Config>::cost_t;
+  using costs = typename row_sum<Config>::costs;
+
+  struct place {
+    typename column_sum<Config>::place column;
+    bool row_starts;     // the first beat of a row
+    bool row_can_leave;  // a row of this frame leaves the window: at least window_rows rows came before
+  };
+
+  /// `left`, `right`: the newest beats, 0 in rows below the frame.
+  costs step(const beat_t& left, const beat_t& right, const place& at) {
+#pragma HLS INLINE
+    beat_t oldest_left = 0;
+    beat_t oldest_right = 0;
+    if (at.column.in_columns) {
+      const auto left_above = left_rows_.step(left, at.column.beat);
+      const auto right_above = right_rows_.step(right, at.column.beat);
+      if (at.row_can_leave) {
+        oldest_left = left_above.rows[window_rows - 1];
+        oldest_right = right_above.rows[window_rows - 1];
+      }
+    }
+    const auto entering = differences(left, right, entering_right_, at.row_starts);
+    const auto leaving = differences(oldest_left, oldest_right, leaving_right_, at.row_starts);
+    return rows_.step(columns_.step(entering, leaving, at.column));
+  }
+
+ private:
+  static constexpr int max_beats = window::divide_up(Config::max_width, lanes);
+  // A column right of the window's centre reaches `window_radius` pixels further left than the centre's candidates do.
+  using taps = pixel_taps<lanes, lanes - 1 + levels, Config::window_radius>;
+
+  static typename column_sum<Config>::differences differences(const beat_t& left, const beat_t& right, taps& history,
+                                                              bool row_starts) {
+    color left_pixels[lanes];
+    color right_pixels[lanes];
+    for (int lane = 0; lane < lanes; ++lane) {
+      left_pixels[lane] = color_of_lane(left, lane);
+      right_pixels[lane] = color_of_lane(right, lane);
+    }
+    history.step(right_pixels, row_starts);
+    typename column_sum<Config>::differences result;
+    for (int lane = 0; lane < lanes; ++lane) {
+      const color pixel = left_pixels[lane];
+      for (int d = 0; d < levels; ++d) {
+        const int tap = lanes - 1 - lane + d;
+        result.at[lane][d] = absolute_difference(pixel.red, history.red[tap]) +
+                             absolute_difference(pixel.green, history.green[tap]) +
+                             absolute_difference(pixel.blue, history.blue[tap]);
+      }
+    }
+    return result;
+  }
+
+  window::line_buffer<beat_t, window_rows, max_beats> left_rows_;
+  window::line_buffer<beat_t, window_rows, max_beats> right_rows_;
+  taps entering_right_;
+  taps leaving_right_;
+  column_sum<Config> columns_;
+  row_sum<Config> rows_;
+};
+
+}  // namespace epiline::kernels

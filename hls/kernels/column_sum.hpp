@@ -1,0 +1,63 @@
+#pragma once
+#include <ap_int.h>
+
+#include "kernels/color.hpp"
+#include "kernels/level_array.hpp"
+#include "window/bits.hpp"
+
+namespace epiline::kernels {
+
+/// Vertical half of the SAD window: for every column x and level d
+///   V(x, y, d) = V(x, y - 1, d) + AD(x, y, d) - AD(x, y - N, d)
+/// where the sums of the row before wait in block RAM, one word a beat: O(1) in the window's height N.
+///
+/// Border policy: columns outside the frame are 0. Rows outside are 0 because the caller passes differences of 0 there.
+/// State: the RAM. The first row of a frame does not use it, so it needs no clearing.
+///
+/// Config: levels, pixels_per_beat, max_width, window_radius.
+template <class Config>
+class column_sum {
+ public:
+  static constexpr int lanes = Config::pixels_per_beat;
+  static constexpr int levels = Config::levels;
+  static constexpr int beats = window::divide_up(Config::max_width, lanes);
+  using sum_t = ap_uint<window::bits_for((2 * Config::window_radius + 1) * 765)>;
+  using differences = level_array<color_difference_t, lanes, levels>;
+  using sums = level_array<sum_t, lanes, levels>;
+
+  struct place {
+    int beat;             // of the row, may lie outside the frame
+    bool in_columns;      // the beat lies in the columns of the frame
+    bool lane_in[lanes];  // the lane does, too
+    bool first_row;       // of a frame
+  };
+
+  /// `entering` belongs to the row at the window's lower end, `leaving` to the row above its upper end.
+  /// The same beat may come again after 8 iterations at the earliest.
+  sums step(const differences& entering, const differences& leaving, const place& at) {
+#pragma HLS INLINE
+#pragma HLS DEPENDENCE variable = sums_ type = inter distance = 8 true
+    sums result;
+    for (int lane = 0; lane < lanes; ++lane) {
+      for (int d = 0; d < levels; ++d) result.at[lane][d] = 0;
+      if (at.in_columns && !at.first_row) {
+        for (int d = 0; d < levels; ++d) result.at[lane][d] = sums_[at.beat][lane][d];
+      }
+      for (int d = 0; d < levels; ++d) {
+        // One adder on the way from RAM to RAM; the net change is known long before.
+        const ap_int<11> change = entering.at[lane][d] - leaving.at[lane][d];
+        const sum_t sum = result.at[lane][d] + change;
+        result.at[lane][d] = at.lane_in[lane] ? sum : sum_t(0);
+      }
+      if (at.in_columns) {
+        for (int d = 0; d < levels; ++d) sums_[at.beat][lane][d] = result.at[lane][d];
+      }
+    }
+    return result;
+  }
+
+ private:
+  sum_t sums_[beats][lanes][levels];
+};
+
+}  // namespace epiline::kernels

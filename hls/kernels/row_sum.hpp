@@ -1,0 +1,74 @@
+#pragma once
+#include <ap_int.h>
+
+#include "kernels/column_sum.hpp"
+#include "kernels/level_array.hpp"
+
+namespace epiline::kernels {
+
+/// Horizontal half of the SAD window: C(x, d) = sum of V(x + k, d), k = -r .. r, as a running sum
+///   C(x, d) = C(x - 1, d) + V(x + r, d) - V(x - r - 1, d).
+/// The change over all lanes of a beat is summed up first, so the running sum's own loop holds one adder whatever the
+/// number of lanes.
+///
+/// Lane l of the result belongs to column l of the beat `delay_beats` before the newest one.
+/// Border policy: outside columns are 0, which the caller provides by at least r columns of 0 between two rows.
+/// State: the columns that are still inside the window or wait to leave it, and the running sum. Invariant: the sum
+/// equals the sum of its columns. It holds at zero and no step breaks it, so nothing is to be reset between rows or
+/// frames; an object must start zeroed (static, or T{}).
+///
+/// Config: levels, pixels_per_beat, window_radius.
+template <class Config>
+class row_sum {
+ public:
+  static constexpr int lanes = Config::pixels_per_beat;
+  static constexpr int levels = Config::levels;
+  static constexpr int window_columns = 2 * Config::window_radius + 1;
+  static constexpr int delay_beats = window::divide_up(Config::window_radius, lanes);
+
+  using column_t = typename column_sum<Config>::sum_t;
+  using column_beat = typename column_sum<Config>::sums;
+  using cost_t = ap_uint<window::bits_for(window_columns* window_columns * 765)>;
+  using costs = level_array<cost_t, lanes, levels>;
+
+  costs step(const column_beat& newest) {
+#pragma HLS INLINE
+    costs result;
+    change_t change[levels];
+    for (int d = 0; d < levels; ++d) change[d] = 0;
+    for (int lane = 0; lane < lanes; ++lane) {
+      const column_t(&entering)[levels] = column(newest, lane - skew);
+      const column_t(&leaving)[levels] = column(newest, lane - skew - window_columns);
+      for (int d = 0; d < levels; ++d) {
+        change[d] = change[d] + (entering[d] - leaving[d]);
+        result.at[lane][d] = sum_[d] + change[d];
+      }
+    }
+    for (int d = 0; d < levels; ++d) sum_[d] = result.at[lanes - 1][d];
+
+    for (int k = history - 1; k >= lanes; --k) {
+      for (int d = 0; d < levels; ++d) columns_[k][d] = columns_[k - lanes][d];
+    }
+    for (int lane = 0; lane < lanes; ++lane) {
+      for (int d = 0; d < levels; ++d) columns_[lanes - 1 - lane][d] = newest.at[lane][d];
+    }
+    return result;
+  }
+
+ private:
+  /// How many columns the window's right end lies behind the lane, so that results come out in whole beats.
+  static constexpr int skew = delay_beats * lanes - Config::window_radius;
+  static constexpr int history = skew + window_columns;
+  static_assert(history >= lanes);
+  using change_t = ap_int<16>;  // modulo 2^16, as the sum
+
+  /// Column i of the newest beat; negative: before it.
+  const column_t (&column(const column_beat& newest, int i) const)[levels] {
+    return i >= 0 ? newest.at[i] : columns_[-1 - i];
+  }
+
+  column_t columns_[history][levels];  // [0] = the last column before the newest beat
+  cost_t sum_[levels];
+};
+
+}  // namespace epiline::kernels
