@@ -62,7 +62,7 @@ build/bin/epiline compare --design "$design" --engines native,golden,rtl "${pair
   --output-stalls "$stalls" --seed "$seed" --json "$out/compare.json" || fail "the engines do not agree"
 
 step "Yosys: resources of the Verilog on ECP5"
-scripts/synthesize.sh "$out/rtl/$design.v" "$design" "$out/synthesis" || fail "the synthesis failed"
+scripts/synthesize.sh "$out/rtl/$design.v" "$design" -o "$out/synthesis" || fail "the synthesis failed"
 
 step "done"
 cat <<END

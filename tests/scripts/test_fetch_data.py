@@ -1,6 +1,7 @@
-"""scripts/fetch_data.py as a person runs it, with manifests whose sources are files made here: no network is used."""
+"""scripts/fetch_data.py as a person runs it, with manifests whose sources are made here: no network is used."""
 
 import hashlib
+import http.server
 import json
 import os
 import pathlib
@@ -8,12 +9,29 @@ import stat
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
 import zipfile
 
 script = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "fetch_data.py"
 picture = b"P5\n2 1\n255\nab"
 picture_with_comment = b"P5\n# a comment\n2 1\n255\nab"
+
+
+class small_server(http.server.BaseHTTPRequestHandler):
+    """On this machine only: one picture, one that ends too early, and nothing else."""
+
+    def do_GET(self):
+        if self.path not in ("/whole.pgm", "/short.pgm"):
+            self.send_error(404)
+            return
+        self.send_response(200)
+        self.send_header("Content-Length", str(len(picture) + (5 if self.path == "/short.pgm" else 0)))
+        self.end_headers()
+        self.wfile.write(picture)
+
+    def log_message(self, *_):
+        pass
 
 
 def sha256(data):
@@ -98,6 +116,20 @@ class fetch_data(unittest.TestCase):
         self.origin.write_bytes(picture[:-1])
         self.assert_refused(self.run_script([self.scene()], "small"), "truncated PNM")
         self.assert_nothing_is_left()
+
+    def test_a_web_server_is_asked_and_its_failures_are_told(self):
+        server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), small_server)
+        self.addCleanup(server.server_close)
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        self.addCleanup(server.shutdown)
+        address = f"http://127.0.0.1:{server.server_port}"
+        result = self.run_script([self.scene(source={"url": f"{address}/short.pgm"})], "small")
+        self.assert_refused(result, "cannot download", "short.pgm")
+        self.assert_nothing_is_left()
+        result = self.run_script([self.scene(source={"url": f"{address}/none.pgm"})], "small")
+        self.assert_refused(result, "none.pgm", "answered 404")
+        result = self.run_script([self.scene(source={"url": f"{address}/whole.pgm"})], "small")
+        self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_an_optional_file_may_be_missing(self):
         scene = self.scene()
