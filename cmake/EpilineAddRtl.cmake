@@ -6,11 +6,15 @@
 #   epiline_add_verilog_model does. The folder is TARGET's property EPILINE_RTL_FOLDER. INCLUDES are added to the include
 #   directories of epiline_hls, i.e. of hls/ itself. OPTIONS are passed to epiline-hls as they are.
 #
-# epiline_add_verilog_model(TARGET TOP module VERILOG file.v.. REPORT report.json [DEPENDS ..])
+# epiline_add_verilog_model(TARGET TOP module VERILOG file.v.. REPORT report.json [DEPENDS ..] [NO_LINT])
 #   Runs Verilator and compiles the model. TARGET is a static library; "TARGET_model.hpp" declares
-#   epiline::cosim::make_TARGET_model(seed). REPORT's key "interface" names the ports.
+#   epiline::cosim::make_TARGET_model(seed). REPORT's key "interface" names the ports. Verilator's warnings are errors, unless NO_LINT.
 #
-# Both targets are built when something that is built links them.
+# epiline_add_netlist_model(TARGET TOP module VERILOG file.v REPORT report.json [DEPENDS ..])
+#   Synthesizes the Verilog for ECP5 with scripts/synthesize.sh into <binary dir>/TARGET.netlist and makes a model of the
+#   netlist, like epiline_add_verilog_model. The folder is TARGET's property EPILINE_NETLIST_FOLDER.
+#
+# The targets are built when something that is built links them.
 
 find_program(EPILINE_VERILATOR verilator REQUIRED DOC "Verilator (Debian package verilator)")
 find_program(EPILINE_MAKE NAMES make gmake REQUIRED DOC "GNU make, which builds Verilator's output (Debian package make)")
@@ -33,7 +37,7 @@ if(NOT TARGET epiline_verilated)
 endif()
 
 function(epiline_add_verilog_model target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TOP;REPORT" "VERILOG;DEPENDS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "NO_LINT" "TOP;REPORT" "VERILOG;DEPENDS")
   foreach(required TOP REPORT VERILOG)
     if(NOT arg_${required})
       message(FATAL_ERROR "epiline_add_verilog_model(${target}): ${required} is missing")
@@ -42,6 +46,10 @@ function(epiline_add_verilog_model target)
 
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}.model)
   set(make_model ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../tb/cosim/make_model.py)
+  set(lint)
+  if(arg_NO_LINT)
+    set(lint -Wno-fatal -Wno-lint)
+  endif()
   set(archive ${folder}/V${target}__ALL.a)
   # Verilator's own makefile compiles the model: the number of files it splits the model into is known only when it ran.
   add_custom_command(
@@ -49,7 +57,7 @@ function(epiline_add_verilog_model target)
     BYPRODUCTS ${folder}/V${target}.h
     COMMAND ${CMAKE_COMMAND} -E rm -rf ${folder}
     COMMAND ${EPILINE_VERILATOR} --cc --quiet-exit --no-timing -O3 --x-assign fast --x-initial unique --noassert
-            --output-split 8000 --output-split-cfuncs 500 -Wno-UNOPTFLAT
+            --output-split 8000 --output-split-cfuncs 500 -Wno-UNOPTFLAT ${lint}
             --top-module ${arg_TOP} --prefix V${target} --Mdir ${folder} ${arg_VERILOG}
     COMMAND ${EPILINE_MAKE} --silent -C ${folder} -f V${target}.mk -j2 V${target}__ALL.a
             CXX=${CMAKE_CXX_COMPILER} AR=${CMAKE_AR} VM_PARALLEL_BUILDS=1 CFG_CXXFLAGS_STD=-std=c++20
@@ -113,4 +121,29 @@ function(epiline_add_rtl target)
   add_dependencies(${target}_verilated ${target}_verilog)
   add_dependencies(${target} ${target}_verilog)
   set_target_properties(${target} PROPERTIES EPILINE_RTL_FOLDER ${folder})
+endfunction()
+
+function(epiline_add_netlist_model target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TOP;VERILOG;REPORT" "DEPENDS")
+  foreach(required TOP REPORT VERILOG)
+    if(NOT arg_${required})
+      message(FATAL_ERROR "epiline_add_netlist_model(${target}): ${required} is missing")
+    endif()
+  endforeach()
+  set(root ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/..)
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}.netlist)
+  set(netlist ${folder}/${arg_TOP}_netlist.v)
+  add_custom_command(
+    OUTPUT ${netlist} ${folder}/resources.json
+    COMMAND ${root}/scripts/synthesize.sh ${arg_VERILOG} ${arg_TOP} -o ${folder} --report ${arg_REPORT}
+    DEPENDS ${arg_VERILOG} ${arg_REPORT} ${arg_DEPENDS} ${root}/scripts/synthesize.sh
+            ${root}/scripts/netlist_resources.py
+    COMMENT "Synthesizing ${arg_TOP} of ${target}"
+    VERBATIM)
+  add_custom_target(${target}_netlist DEPENDS ${netlist})
+  epiline_add_verilog_model(${target} TOP ${arg_TOP} VERILOG ${netlist} ${root}/tb/cosim/ecp5_cells.v
+    REPORT ${arg_REPORT} NO_LINT)
+  add_dependencies(${target}_verilated ${target}_netlist)
+  add_dependencies(${target} ${target}_netlist)
+  set_target_properties(${target} PROPERTIES EPILINE_NETLIST_FOLDER ${folder})
 endfunction()

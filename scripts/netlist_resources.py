@@ -1,0 +1,63 @@
+#!/usr/bin/env python3
+"""Counts what a netlist takes, from the files scripts/synthesize.sh had Yosys write.
+
+netlist_resources.py FOLDER TOP [REPORT.json]
+
+Writes FOLDER/resources.json and prints it as one line. Ends with exit code 1 when a memory that REPORT.json names did
+not become RAM.
+"""
+
+import json
+import pathlib
+import re
+import sys
+
+# LUT4 each cell occupies, as nextpnr counts them: a carry cell both LUTs of its slice; a 16x4 RAM four, and two more for
+# its write port.
+LUTS = {"LUT4": 1, "CCU2C": 2, "TRELLIS_DPR16X4": 6}
+COUNTED = ("LUT4", "CCU2C", "TRELLIS_FF", "DP16KD", "TRELLIS_DPR16X4", "MULT18X18D", "PFUMX", "L6MUX21")
+
+
+def memories_in(file):
+    """Names of the arrays in Yosys's dump of memory cells."""
+    return set(re.findall(r'parameter \\MEMID "\\\\?([^"]+)"', file.read_text(encoding="utf-8")))
+
+
+def memories_of(report):
+    """Names of the RTL arrays of a report that are to be RAM."""
+    content = json.loads(report.read_text(encoding="utf-8"))
+    return {memory["rtl"] for memory in content.get("memories", []) if memory.get("storage") in ("block", "distributed")}
+
+
+def main():
+    if len(sys.argv) not in (3, 4):
+        sys.exit(__doc__.split("\n\n")[1])
+    folder, top = pathlib.Path(sys.argv[1]), sys.argv[2]
+    statistics = json.loads((folder / "statistics.json").read_text(encoding="utf-8"))
+    cells = statistics["modules"]["\\" + top]["num_cells_by_type"]
+    found, lost = memories_in(folder / "memories.txt"), memories_in(folder / "lost_memories.txt")
+    wanted = memories_of(pathlib.Path(sys.argv[3])) if len(sys.argv) == 4 else set()
+    # An array Yosys never saw as a memory was taken apart while it read the Verilog.
+    lost |= wanted - found
+    resources = {
+        "top": top,
+        "lut4": sum(count * cells.get(cell, 0) for cell, count in LUTS.items()),
+        "flip_flops": cells.get("TRELLIS_FF", 0),
+        "block_rams": cells.get("DP16KD", 0),
+        "multipliers": cells.get("MULT18X18D", 0),
+        "cells": {cell: cells.get(cell, 0) for cell in COUNTED},
+        "memories": sorted(found - lost),
+        "lost_memories": sorted(lost),
+    }
+    (folder / "resources.json").write_text(json.dumps(resources, indent=2) + "\n", encoding="utf-8")
+    print(
+        f"{top}: {resources['lut4']} LUT4 (a carry cell counts 2, a 16x4 RAM 6), {resources['flip_flops']} flip-flops, "
+        f"{resources['block_rams']} DP16KD, {resources['multipliers']} MULT18X18D"
+    )
+    if lost:
+        sys.exit(f"netlist_resources.py: error: no RAM was found for the memories {', '.join(sorted(lost))}: "
+                 "they became flip-flops")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+"""scripts/synthesize.sh: what it counts, and that it fails where it must. Takes the project's root as its argument."""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[2]
+
+ADDER = """
+module top (input wire clk, input wire [7:0] a, input wire [7:0] b, output reg [8:0] sum);
+  always @(posedge clk) sum <= a + b;
+endmodule
+"""
+
+RAM = """
+module top (input wire clk, input wire write, input wire [9:0] from, input wire [9:0] to, input wire [17:0] data,
+            output reg [17:0] word);
+  reg [17:0] store[0:1023];
+  always @(posedge clk) begin
+    if (write) store[to] <= data;
+    word <= store[from];
+  end
+endmodule
+"""
+
+# Two writes at two addresses and a read at a third: more ports than a RAM has.
+THREE_PORTS = """
+module top (input wire clk, input wire write, input wire [5:0] from, input wire [5:0] to, input wire [5:0] clear,
+            input wire [7:0] data, output reg [7:0] word);
+  reg [7:0] store[0:63];
+  always @(posedge clk) begin
+    if (write) store[to] <= data;
+    store[clear] <= 8'd0;
+    word <= store[from];
+  end
+endmodule
+"""
+
+LATCH = """
+module top (input wire enable, input wire a, output reg q);
+  always @* if (enable) q = a;
+endmodule
+"""
+
+TWO_DRIVERS = """
+module top (input wire clk, input wire a, input wire b, output wire y);
+  reg p, q;
+  always @(posedge clk) p <= a;
+  always @(posedge clk) q <= b;
+  assign y = p;
+  assign y = q;
+endmodule
+"""
+
+LOOP = """
+module top (input wire a, output wire y);
+  wire z = ~(y & a);
+  assign y = ~(z | a);
+endmodule
+"""
+
+
+class synthesize(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+    def run_script(self, *arguments, **environment):
+        return subprocess.run([ROOT / "scripts/synthesize.sh", *arguments], cwd=self.folder, text=True,
+                              capture_output=True, env={**os.environ, **environment}, check=False)
+
+    def synthesize(self, verilog, report=None):
+        (self.folder / "top.v").write_text(verilog, encoding="utf-8")
+        if report is not None:
+            (self.folder / "report.json").write_text(json.dumps(report), encoding="utf-8")
+        return self.run_script("top.v", "top", "-o", "out")
+
+    def resources(self):
+        return json.loads((self.folder / "out/resources.json").read_text(encoding="utf-8"))
+
+    def expect_failure(self, result, *words):
+        self.assertNotEqual(result.returncode, 0)
+        for word in words:
+            self.assertIn(word, result.stderr)
+
+    def test_counts_luts_carries_and_flip_flops(self):
+        result = self.synthesize(ADDER)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        resources = self.resources()
+        self.assertEqual(resources["flip_flops"], 9)
+        cells = resources["cells"]
+        self.assertGreater(cells["CCU2C"], 0)
+        self.assertEqual(resources["lut4"], cells["LUT4"] + 2 * cells["CCU2C"] + 6 * cells["TRELLIS_DPR16X4"])
+        self.assertTrue((self.folder / "out/top_netlist.v").exists())
+        self.assertTrue((self.folder / "out/top.json").exists())
+
+    def test_counts_block_rams_and_knows_their_names(self):
+        result = self.synthesize(RAM, {"memories": [{"rtl": "store", "storage": "block"}]})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.resources()["block_rams"], 1)
+        self.assertEqual(self.resources()["memories"], ["store"])
+
+    def test_fails_when_a_memory_became_flip_flops(self):
+        self.expect_failure(self.synthesize(THREE_PORTS), "store", "flip-flops")
+        self.assertEqual(self.resources()["lost_memories"], ["store"])
+
+    def test_fails_when_a_memory_of_the_report_is_not_there(self):
+        self.expect_failure(self.synthesize(ADDER, {"memories": [{"rtl": "line", "storage": "block"}]}), "line")
+
+    def test_fails_on_a_latch(self):
+        self.expect_failure(self.synthesize(LATCH), "Yosys failed")
+
+    def test_fails_on_two_drivers(self):
+        self.expect_failure(self.synthesize(TWO_DRIVERS), "Yosys failed")
+
+    def test_fails_on_a_combinational_loop(self):
+        self.expect_failure(self.synthesize(LOOP), "Yosys failed")
+
+    def test_fails_on_verilog_with_an_error(self):
+        self.expect_failure(self.synthesize("module top (; endmodule"), "ERROR", "Yosys failed")
+        self.assertFalse((self.folder / "out/resources.json").exists())
+
+    def test_fails_on_wrong_arguments(self):
+        (self.folder / "top.v").write_text(ADDER, encoding="utf-8")
+        self.expect_failure(self.run_script("top.v"), "usage")
+        self.expect_failure(self.run_script("top.v", "top", "-o"), "-o needs a value")
+        self.expect_failure(self.run_script("top.v", "top", "--fast"), "unknown argument '--fast'")
+        self.expect_failure(self.run_script("none.v", "top", "-o", "out"), "none.v' is not a readable file")
+        self.expect_failure(self.run_script("top.v", "top", "-o", "out", "--report", "none.json"), "none.json")
+        self.expect_failure(self.run_script("top.v", "a b", "-o", "out"), "not the name of a module")
+        self.expect_failure(self.run_script("top.v", "other", "-o", "out"), "Yosys failed")
+        self.expect_failure(self.run_script("top.v", "top", "-o", "out", YOSYS="no_such_yosys"),
+                            "Debian package yosys")
+
+
+if __name__ == "__main__":
+    unittest.main()
