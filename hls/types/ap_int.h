@@ -167,7 +167,7 @@ class ap_int_base : public detail::bool_conversion<ap_int_base<W, S>, (W > 64)> 
   template <class T, std::enable_if_t<detail::is_c_integer<T>, int> = 0>
   constexpr ap_int_base(T v) : stored_(from_c(detail::promote(v))) {}
   template <class Target>
-  constexpr ap_int_base(const ap_range_ref<Target>& v) : ap_int_base(v.get()) {}
+  constexpr ap_int_base(const ap_range_ref<Target>& v) : ap_int_base(v.template get_low<W>()) {}
   template <class Target>
   constexpr ap_int_base(const ap_bit_ref<Target>& v) : ap_int_base(v.to_bool()) {}
   template <class High, class Low>
@@ -229,13 +229,13 @@ class ap_int_base : public detail::bool_conversion<ap_int_base<W, S>, (W > 64)> 
 
   constexpr bool test(int index) const {
     backend::check_bit_index(index, W);
-    return ((bits() >> index) & bits_type(1)) != bits_type(0);
+    return backend::test_bit<W, S>(to_raw(), index);
   }
   constexpr bool get_bit(int index) const { return test(index); }
   constexpr void set(int index, bool value) {
     backend::check_bit_index(index, W);
-    const bits_type one = backend::wrap<W, false>(bits_type(1) << index);
-    const bits_type kept = backend::wrap<W, false>(bits() & backend::wrap<W, false>(~one));
+    bits_type one = backend::wrap<W, false>(bits_type(1) << index);
+    bits_type kept = backend::wrap<W, false>(bits() & backend::wrap<W, false>(~one));
     set_bits(backend::wrap<W, false>(kept | backend::wrap<W, false>(bits_type(value) << index)));
   }
   constexpr void set_bit(int index, bool value) { set(index, value); }
@@ -252,7 +252,7 @@ class ap_int_base : public detail::bool_conversion<ap_int_base<W, S>, (W > 64)> 
   /// Rotates by 0 <= n < W places.
   constexpr ap_int_base& lrotate(int n) {
     backend::check_bit_index(n, W);
-    const bits_type u = bits();
+    bits_type u = bits();
     if (n != 0) {
       set_bits(backend::wrap<W, false>(backend::wrap<W, false>(u << n) | backend::wrap<W, false>(u >> (W - n))));
     }
@@ -267,15 +267,19 @@ class ap_int_base : public detail::bool_conversion<ap_int_base<W, S>, (W > 64)> 
   constexpr bool nand_reduce() const { return !and_reduce(); }
   constexpr bool or_reduce() const { return to_bool(); }
   constexpr bool nor_reduce() const { return !to_bool(); }
-  constexpr bool xor_reduce() const { return parity(); }
-  constexpr bool xnor_reduce() const { return !parity(); }
+  constexpr bool xor_reduce() const { return folded_parity<1>(bits()); }
+  constexpr bool xnor_reduce() const { return !xor_reduce(); }
   /// Number of zeros above the highest one; W for zero.
   constexpr int countLeadingZeros() const {
-    int zeros = W;
-    for (int i = 0; i < W; ++i) {
-      if (test(i)) zeros = W - 1 - i;
+    if constexpr (W == 1) {
+      return to_bool() ? 0 : 1;
+    } else {
+      // A balanced tree: the upper half decides unless it is zero.
+      constexpr int lower = W / 2;
+      const ap_int_base<W - lower, false> top(ap_int_base<W, false>(*this) >> lower);
+      const ap_int_base<lower, false> bottom(*this);
+      return top.to_bool() ? top.countLeadingZeros() : W - lower + bottom.countLeadingZeros();
     }
-    return zeros;
   }
 
   /// This value on top of `low`: W plus its width bits; assignable if both are.
@@ -346,12 +350,15 @@ class ap_int_base : public detail::bool_conversion<ap_int_base<W, S>, (W > 64)> 
   constexpr bits_type bits() const { return backend::wrap<W, false>(to_raw()); }
   constexpr void set_bits(const bits_type& v) { *this = from_raw(backend::wrap<W, S>(v)); }
   static constexpr bits_type all_ones() { return backend::wrap<W, false>(~bits_type(0)); }
-  constexpr bool parity() const {
-    bits_type v = bits();
-    for (int distance = 1; distance < W; distance *= 2) {
-      v = backend::wrap<W, false>(v ^ backend::wrap<W, false>(v >> distance));
+  // The exclusive or of v's bits 0, distance, 2 distance, ... is not changed by folding: no loop, for the hardware's
+  // sake.
+  template <int distance>
+  static constexpr bool folded_parity(const bits_type& v) {
+    if constexpr (distance < W) {
+      return folded_parity<2 * distance>(backend::wrap<W, false>(v ^ backend::wrap<W, false>(v >> distance)));
+    } else {
+      return backend::test_bit<W, false>(v, 0);
     }
-    return (v & bits_type(1)) != bits_type(0);
   }
 
 #ifndef __SYNTHESIS__
@@ -404,8 +411,21 @@ class ap_range_ref {
   ap_range_ref(const ap_range_ref&) = default;
 
   constexpr value get() const {
-    const bits field = backend::wrap<width, false>(target_->bits() >> lowest()) & mask();
+    bits field = backend::wrap<width, false>(target_->bits() >> lowest()) & mask();
     return value::from_raw(backend::wrap<width, false>(ordered(backend::wrap<width, false>(field))));
+  }
+  /// get() modulo 2^W, as far as that is cheaper to compute.
+  template <int W>
+  constexpr auto get_low() const {
+    if constexpr (W <= 64 && width > 64) {
+      using word = ap_int_base<64, false>;
+      if (high_ < low_) return word(get());
+      auto field = backend::word_at<width>(target_->to_raw(), low_);
+      if (length() < 64) field = (field << (64 - length())) >> (64 - length());
+      return word::from_raw(field);
+    } else {
+      return get();
+    }
   }
   constexpr operator unsigned long long() const { return get().to_uint64(); }
   constexpr int length() const { return (high_ >= low_ ? high_ - low_ : low_ - high_) + 1; }
@@ -451,8 +471,8 @@ class ap_range_ref {
     return backend::wrap<width, false>(backend::reverse_bits<width>(field) >> (width - length()));
   }
   constexpr void write(const value& v) {
-    const bits field = ordered(backend::wrap<width, false>(v.to_raw() & mask()));
-    const bits hole = backend::wrap<width, false>(~backend::wrap<width, false>(mask() << lowest()));
+    bits field = ordered(backend::wrap<width, false>(v.to_raw() & mask()));
+    bits hole = backend::wrap<width, false>(~backend::wrap<width, false>(mask() << lowest()));
     target_->set_bits(backend::wrap<width, false>(backend::wrap<width, false>(target_->bits() & hole) |
                                                   backend::wrap<width, false>(field << lowest())));
   }

@@ -277,6 +277,28 @@ constexpr raw<W, false> reverse_bits(const raw<W, false>& v) {
   }
 }
 
+/// Bit `index` of `v`, 0 <= index < W.
+template <int W, bool S>
+constexpr bool test_bit(const raw<W, S>& v, int index) {
+  if constexpr (W <= 128) {
+    return ((v >> index) & 1) != 0;
+  } else {
+    return ((v.word(index / 64) >> (index % 64)) & 1) != 0;
+  }
+}
+
+/// The 64 bits of `v` from bit `low` up, 0 <= low < W; above bit W - 1 they are unspecified.
+template <int W, class R>
+constexpr std::uint64_t word_at(const R& v, int low) {
+  if constexpr (W <= 128) {
+    return static_cast<std::uint64_t>(v >> low);
+  } else {
+    const int part = low % 64;
+    const std::uint64_t above = part != 0 ? v.word(low / 64 + 1) << (64 - part) : 0;
+    return (v.word(low / 64) >> part) | above;
+  }
+}
+
 // Errors of a program run natively: they are bugs of the kernel, so the run stops where they are found.
 
 [[noreturn]] inline void fail_bit_index(int index, int width) {

@@ -2,6 +2,8 @@
 // Back end of ap_int.h for the synthesis build (clang with -D__SYNTHESIS__): every value is a `_BitInt` of its exact
 // width, so that the LLVM IR consists of iN operations and nothing else. detail/integer_native.h is its twin and
 // declares the same names; ap_int.h includes exactly one of them.
+//
+// No local variable of such a type may be `const`: clang 19 crashes on const locals of more than 128 bits.
 
 #include <cstddef>
 #include <cstdint>
@@ -72,6 +74,19 @@ constexpr raw<W, false> reverse_bits(raw<W, false> v) {
   }
 }
 
+/// Bit `index` of `v`, 0 <= index < W.
+template <int W, bool S>
+constexpr bool test_bit(raw<W, S> v, int index) {
+  return static_cast<unsigned _BitInt(1)>(v >> index) != 0;
+}
+
+/// The 64 bits of `v` from bit `low` up, 0 <= low < W; above bit W - 1 they are unspecified.
+template <int W, class R>
+constexpr unsigned _BitInt(64) word_at(R v, int low) {
+  return static_cast<unsigned _BitInt(64)>(v >> low);
+}
+
+// Errors are the native run's to report.
 constexpr void check_bit_index(int, int) {}
 constexpr void check_range(int, int, int) {}
 constexpr void report_division_by_zero(int, bool, int, bool) {}
