@@ -61,7 +61,9 @@ class fetch_data(unittest.TestCase):
     def run_script(self, scenes, *arguments, path=None):
         manifest = self.folder / "manifest.json"
         manifest.write_text(scenes if isinstance(scenes, str) else json.dumps(scenes))
-        environment = dict(os.environ) if path is None else dict(os.environ, PATH=f"{path}:{os.environ['PATH']}")
+        environment = dict(os.environ, no_proxy="127.0.0.1")
+        if path is not None:
+            environment["PATH"] = f"{path}:{environment['PATH']}"
         return subprocess.run(
             [sys.executable, "-B", str(script), "--manifest", str(manifest), "--to", str(self.downloads), *arguments],
             capture_output=True,
