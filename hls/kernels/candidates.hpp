@@ -1,7 +1,7 @@
 #pragma once
-#include <type_traits>
-
 #include <ap_int.h>
+
+#include <type_traits>
 
 #include "kernels/level_array.hpp"
 

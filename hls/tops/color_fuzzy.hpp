@@ -7,6 +7,10 @@
 #include "kernels/candidates.hpp"
 #include "kernels/color_sad.hpp"
 #include "kernels/disparity.hpp"
+#include "kernels/fuzzy_filter.hpp"
+#include "kernels/fuzzy_rule_base.hpp"
+#include "kernels/left_right_check.hpp"
+#include "kernels/uniqueness.hpp"
 #include "window/bits.hpp"
 #include "window/raster.hpp"
 #include "window/reduce.hpp"
@@ -20,6 +24,9 @@ struct color_fuzzy_config {
   static constexpr int levels = 80;  // at most 128
   static constexpr int pixels_per_beat = 1;
   static constexpr int window_radius = 3;
+  static constexpr int fuzzy_radius = 3;
+  static constexpr int uniqueness_delay = 32;  // iterations the costs wait for the winner
+  using rule_base = kernels::triangular_rule_base<6>;
 };
 
 /// The types of a configuration's interface and its constants of time.
@@ -45,11 +52,32 @@ struct color_fuzzy_interface {
     static constexpr int maximum_rows = Config::max_height;
     static constexpr int padding_beats = kernels::color_sad<Config>::delay_beats;
     static constexpr int padding_rows = Config::window_radius;
-    static constexpr int flush_beats = 8;
+    static constexpr int flush_beats = kernels::uniqueness_check<Config>::delay_beats +
+                                       kernels::left_right_check<Config>::delay_beats +
+                                       2 * kernels::fuzzy_filter<Config>::delay_beats;
     static constexpr int minimum_row_beats = 8;  // what line_buffer and column_sum promise
   };
 };
 
+template <class Config>
+typename color_fuzzy_interface<Config>::disparity_beat output_beat(
+    const kernels::disparity_beat_of<Config::pixels_per_beat>& found) {
+  typename color_fuzzy_interface<Config>::disparity_beat out;
+  out.data = 0;
+  for (int lane = 0; lane < Config::pixels_per_beat; ++lane) {
+    const kernels::disparity_pixel pixel = found.pixel[lane];
+    const ap_uint<8> value = (ap_uint<8>(1) << 7) | pixel.disparity;
+    if (pixel.defined) out.data.range(8 * lane + 7, 8 * lane) = value;
+    out.keep[lane] = pixel.in_frame;
+  }
+  out.strb = out.keep;
+  out.user = found.marks.first_beat;
+  out.last = found.marks.last_of_row;
+  return out;
+}
+
+/// One frame of method 2. Preconditions: width 1 .. max_width, height 1 .. max_height, levels 1 .. Config::levels.
+/// `uniqueness` is in sixteenths (0 = off), `fuzzy` the number of passes (more than 2 count as 2).
 template <class Config>
 void color_fuzzy_frame(hls::stream<typename color_fuzzy_interface<Config>::video_beat>& left,
                        hls::stream<typename color_fuzzy_interface<Config>::video_beat>& right,
@@ -65,12 +93,18 @@ void color_fuzzy_frame(hls::stream<typename color_fuzzy_interface<Config>::video
   using sad = color_sad<Config>;
   constexpr int lanes = Config::pixels_per_beat;
 
-  (void)left_right, (void)uniqueness, (void)fuzzy, (void)careful_fill;  // steps to come
-
+  // State lives on from frame to frame: calls follow one another without a bubble, and nothing needs a reset.
   static sad matcher;
+  static uniqueness_check<Config> unique;
+  static left_right_check<Config> agreement;
+  static fuzzy_filter<Config> first_pass;
+  static fuzzy_filter<Config> second_pass;
 
   const typename window::raster<schedule>::beats_t beats = (width + (lanes - 1)) / lanes;
   window::raster<schedule> raster(beats, height);
+  // What stands in the delay lines at power-up must not reach the output: nothing is written before they have been
+  // filled.
+  ap_uint<window::bits_for(schedule::flush_beats)> until_filled = schedule::flush_beats;
   bool more = true;
   do {
 #pragma HLS PIPELINE II = 1
@@ -104,8 +138,10 @@ void color_fuzzy_frame(hls::stream<typename color_fuzzy_interface<Config>::video
     const auto costs = candidate_mask<Config, typename sad::costs>::step(all_costs, centre_x, pixel_in, levels);
 
     disparity_beat_of<lanes> found;
+    typename sad::cost_t lowest[lanes];
     for (int lane = 0; lane < lanes; ++lane) {
       const auto winner = window::minimum<window::smallest_index_wins>(costs.at[lane]);
+      lowest[lane] = winner.value;
       found.pixel[lane].disparity = winner.index;
       found.pixel[lane].defined = pixel_in[lane];
       found.pixel[lane].in_frame = pixel_in[lane];
@@ -114,20 +150,13 @@ void color_fuzzy_frame(hls::stream<typename color_fuzzy_interface<Config>::video
     found.marks.first_beat = raster.row() == schedule::padding_rows && centre_beat == 0;
     found.marks.last_of_row = centre_beat == beats - 1;
 
-    if (found.marks.in_frame) {
-      typename types::disparity_beat out;
-      out.data = 0;
-      out.keep = 0;
-      for (int lane = 0; lane < lanes; ++lane) {
-        const disparity_pixel pixel = found.pixel[lane];
-        if (pixel.defined) out.data.range(8 * lane + 7, 8 * lane) = (ap_uint<8>(pixel.defined) << 7) | pixel.disparity;
-        out.keep[lane] = pixel.in_frame;
-      }
-      out.strb = out.keep;
-      out.user = found.marks.first_beat;
-      out.last = found.marks.last_of_row;
-      disparity.write(out);
-    }
+    const auto confident = unique.step(costs, found, lowest, uniqueness);
+    const auto agreed = agreement.step(confident.costs, confident.found, left_right);
+    const auto once = first_pass.step(agreed, fuzzy >= 1, careful_fill);
+    const auto twice = second_pass.step(once, fuzzy >= 2, careful_fill);
+    const bool filled = until_filled == 0;
+    if (!filled) until_filled = until_filled - 1;
+    if (filled && twice.marks.in_frame) disparity.write(output_beat<Config>(twice));
     more = raster.advance();
   } while (more);
 }

@@ -1,0 +1,63 @@
+#pragma once
+#include <ap_int.h>
+
+#include "kernels/color_sad.hpp"
+#include "kernels/disparity.hpp"
+
+namespace epiline::kernels {
+
+/// Disparity of the right image from the costs of the left one: dR(xr) = argmin over d of C(xr + d, d), tie: smallest
+/// d.
+///
+/// A chain of candidates walks against the raster: the entry of right pixel xr meets C(xr + d, d) when left pixel xr +
+/// d passes, so one entry meets its levels in rising order and "strictly less" keeps the smallest d of a tie. Entries
+/// shift on with every beat, also over the ends of rows: candidates that do not belong together are masked (they cost
+/// the maximum, see candidate_mask), so they never win. There is no feedback but the shift.
+///
+/// State: the chain. Entries of an earlier row or frame meet masked costs only; nothing needs a reset.
+///
+/// Config: levels, pixels_per_beat, window_radius, max_width.
+template <class Config>
+class right_winner {
+ public:
+  static constexpr int lanes = Config::pixels_per_beat;
+  static constexpr int levels = Config::levels;
+  /// The result belongs to the right beat in the column of the left beat this many steps ago.
+  static constexpr int delay_beats = window::divide_up(levels - 1, lanes);
+  using costs_t = typename color_sad<Config>::costs;
+  using cost_t = typename color_sad<Config>::cost_t;
+
+  struct right_beat {
+    disparity_t disparity[lanes];
+  };
+
+  right_beat step(const costs_t& costs) {
+#pragma HLS INLINE
+    for (int entry = 0; entry < lanes; ++entry) {
+      lowest_[entry] = ~cost_t(0);
+      disparity_[entry] = 0;
+    }
+    // Entry e belongs to the right pixel e columns left of the newest lane, so lane l is its partner at level
+    // e - (lanes - 1 - l).
+    for (int lane = 0; lane < lanes; ++lane) {
+      for (int d = 0; d < levels; ++d) {
+        const int entry = d + lanes - 1 - lane;
+        const bool better = costs.at[lane][d] < lowest_[entry];
+        lowest_[entry] = better ? costs.at[lane][d] : lowest_[entry];
+        disparity_[entry] = better ? disparity_t(d) : disparity_[entry];
+      }
+    }
+    right_beat finished;
+    for (int lane = 0; lane < lanes; ++lane) finished.disparity[lane] = disparity_[entries - 1 - lane];
+    for (int entry = entries - 1; entry >= lanes; --entry) lowest_[entry] = lowest_[entry - lanes];
+    for (int entry = entries - 1; entry >= lanes; --entry) disparity_[entry] = disparity_[entry - lanes];
+    return finished;
+  }
+
+ private:
+  static constexpr int entries = (delay_beats + 1) * lanes;
+  cost_t lowest_[entries];
+  disparity_t disparity_[entries];
+};
+
+}  // namespace epiline::kernels

@@ -1,0 +1,80 @@
+#pragma once
+#include <ap_int.h>
+
+#include "kernels/color_sad.hpp"
+#include "kernels/disparity.hpp"
+#include "window/delay_line.hpp"
+#include "window/reduce.hpp"
+
+namespace epiline::kernels {
+
+/// Keeps a winner dL with cost m1 only if every rival costs clearly more:
+///   16 * C(d) >= ratio * m1 for all d with |d - dL| > 1,
+/// which is 16 * m2 >= ratio * m1 for the smallest rival m2, without searching it: every rival is compared with the one
+/// threshold ceil(ratio * m1 / 16). No rival: kept. A ratio of 0 keeps all.
+///
+/// The rivals are known only after the winner, so all costs wait in block RAM for `Config::uniqueness_delay`
+/// iterations, which must cover the pipeline depth of the winner's tree; they come out beside the winner.
+///
+/// Config: levels, pixels_per_beat, window_radius, max_width, uniqueness_delay.
+template <class Config>
+class uniqueness_check {
+ public:
+  static constexpr int lanes = Config::pixels_per_beat;
+  static constexpr int levels = Config::levels;
+  static constexpr int delay_beats = Config::uniqueness_delay;
+  using costs_t = typename color_sad<Config>::costs;
+  using cost_t = typename color_sad<Config>::cost_t;
+  using ratio_t = ap_uint<5>;
+
+  struct result {
+    costs_t costs;
+    disparity_beat_of<lanes> found;
+  };
+
+  /// `costs`: masked (see candidate_mask); `lowest[l]`: the cost of found.pixel[l]; `ratio` in sixteenths.
+  /// The result belongs to the beat of `delay_beats` steps ago.
+  result step(const costs_t& costs, const disparity_beat_of<lanes>& found, const cost_t (&lowest)[lanes],
+              ratio_t ratio) {
+#pragma HLS INLINE
+    waiting_winners newest;
+    newest.found = found;
+    for (int lane = 0; lane < lanes; ++lane) newest.threshold[lane] = threshold(lowest[lane], ratio);
+    const waiting_winners now = winners_.step(newest);
+    result out;
+    out.costs = costs_.step(costs);
+    out.found = now.found;
+    for (int lane = 0; lane < lanes; ++lane) {
+      if (has_rival(out.costs.at[lane], now.found.pixel[lane].disparity, now.threshold[lane])) {
+        out.found.pixel[lane].defined = 0;
+      }
+    }
+    return out;
+  }
+
+ private:
+  struct waiting_winners {
+    disparity_beat_of<lanes> found;
+    cost_t threshold[lanes];
+  };
+
+  static cost_t threshold(cost_t lowest, ratio_t ratio) {
+    const ap_uint<18> rounded_up = (lowest * ratio + 15) >> 4;
+    return rounded_up > cost_t(~cost_t(0)) ? cost_t(~cost_t(0)) : cost_t(rounded_up);  // no cost lies between the two
+  }
+
+  static bool has_rival(const cost_t (&costs)[levels], disparity_t winner, cost_t threshold) {
+    const ap_uint<8> last_neighbour = winner + 1;
+    ap_uint<1> rival[levels];
+    for (int d = 0; d < levels; ++d) {
+      const bool is_neighbour = ap_uint<8>(d + 1) >= winner && ap_uint<8>(d) <= last_neighbour;
+      rival[d] = costs[d] < threshold && !is_neighbour;
+    }
+    return window::reduce(rival, [](ap_uint<1> a, ap_uint<1> b) -> ap_uint<1> { return a | b; }) != 0;
+  }
+
+  window::delay_line<waiting_winners, delay_beats> winners_;
+  window::delay_line<costs_t, delay_beats> costs_;
+};
+
+}  // namespace epiline::kernels
