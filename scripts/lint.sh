@@ -32,7 +32,7 @@ done
 status=0
 scripts/format.sh --check || status=1
 if [ ${#shell_scripts[@]} -gt 0 ]; then
-  shellcheck -x "${shell_scripts[@]}" || status=1
+  shellcheck -x -S warning "${shell_scripts[@]}" || status=1
 fi
 if [ ${#sources[@]} -gt 0 ]; then
   printf '%s\0' "${sources[@]}" | xargs -0 -n 1 -P 2 clang-tidy-19 --quiet -p build || status=1

@@ -54,6 +54,7 @@ rm -f "$folder/resources.json" "$folder/$top.json" "$folder/${top}_netlist.v"
 
 # The steps of synth_ecp5, stopped where the memories are known and again where those that did not fit a RAM are left.
 # "$mem_v2" cells carry the name of the Verilog array in MEMID.
+# shellcheck disable=SC2206  # the variable is a list of words
 options=(${YOSYS_OPTIONS:-})
 # Yosys runs inside the folder: it takes no quotes around the names of its output files.
 if ! (cd "$folder" && "$yosys" -Q -T -q -l yosys.log -p "
