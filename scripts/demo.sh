@@ -50,8 +50,11 @@ build/bin/epiline match --design "$design" --engine native "${pair[@]}" --json "
   fail "the C-simulation failed"
 
 step "$source_file to Verilog"
-build/bin/epiline-hls "$source_file" --top "$design" --target ecp5 --clock 6ns -o "$out/rtl" ||
+build/bin/epiline-hls "$PWD/$source_file" --top "$design" --target ecp5 --clock 6ns -o "$out/rtl" ||
   fail "the compilation to Verilog failed"
+# The build made the same file for the simulation model below.
+cmp "$out/rtl/$design.v" "build/tb/cosim/${design}_rtl.rtl/$design.v" ||
+  fail "the Verilog is not the one that the simulation was built from"
 
 step "that Verilog in Verilator, without stalls: cycles, accuracy, picture"
 build/bin/epiline match --design "$design" --engine rtl "${pair[@]}" -o "$out/disparity.pfm" \

@@ -8,8 +8,8 @@
 source "$(dirname "$0")/common.sh"
 
 packages=(
-  # compilers and build: clang-19 builds everything and is the compiler's front end, g++ is there for Verilator's own defaults
-  clang-19 libclang-rt-19-dev llvm-19-dev lld-19 g++ make cmake ninja-build pkg-config git
+  # compilers and build: clang-19 builds everything and is the front end of epiline-hls; the kernels must compile with g++
+  clang-19 libclang-rt-19-dev llvm-19-dev g++ make cmake ninja-build pkg-config git
   # what llvm-19-dev's CMake files look for
   zlib1g-dev libzstd-dev libxml2-dev
   # libraries
