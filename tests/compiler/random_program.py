@@ -63,7 +63,8 @@ class Generator:
         self.tables = []  # (name, index bits, width, signed)
         self.helpers = []  # (name, parameter types, result type)
         self.counter = 0
-        self.budget = self.r.randint(12, 45)  # statements' worth of expressions
+        self.budget = self.r.randint(8, 32)  # statements
+        self.palette = [self.width() for _ in range(6)]  # few widths a program: every one costs compile time
         self.allow_taint = True
         self.used_wide_multiply = 0
 
@@ -93,7 +94,7 @@ class Generator:
         return r.randint(66, 130)
 
     def any_type(self):
-        return self.width(), self.r.random() < 0.5
+        return self.r.choice(self.palette), self.r.random() < 0.5
 
     def literal_text(self, width, signed):
         """A constant that fits the type, often an extreme one."""
@@ -382,7 +383,7 @@ class Generator:
                 v = r.choice(variables)
                 width, signed = r.randint(1, 14), r.random() < 0.5
                 low = -(1 << (width - 1)) if signed else 0
-                return f"int({type_name(width, signed)}({v.name}))", low, low + (1 << width) - 1, v.tainted
+                return f"static_cast<int>({type_name(width, signed)}({v.name}))", low, low + (1 << width) - 1, v.tainted
             number = r.choice([0, 1, 2, 3, 5, 8, 13, 64, 255, 4095])
             return str(number), number, number, False
         a, alow, ahigh, at = self.c_expression(depth - 1)

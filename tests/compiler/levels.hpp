@@ -1,0 +1,28 @@
+#pragma once
+// Native = dataflow graph = RTL: plays a program's recorded input into a level and compares what comes out.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cosim/model.hpp"
+#include "dataflow/graph.hpp"
+#include "token_file.hpp"
+
+namespace epiline::compiler_test {
+
+struct graph_verdict {
+  std::string difference;        // empty: equal
+  std::uint64_t iterations = 0;  // that took place
+  bool waits = false;            // iterations wait for one another (patient registers): clocks are no fixed number
+};
+
+/// The graph, interpreted.
+[[nodiscard]] graph_verdict check_graph(const dataflow::graph& g, const std::vector<recorded_port>& recorded);
+
+/// The circuit, under several patterns of random pauses. `iterations` of the interpreter, if known (not 0), bound the
+/// clocks of the run without pauses: one an iteration. Returns an empty string or what is wrong.
+[[nodiscard]] std::string check_rtl(cosim::rtl_model& model, const std::vector<recorded_port>& recorded,
+                                    std::uint64_t seed, std::uint64_t iterations);
+
+}  // namespace epiline::compiler_test

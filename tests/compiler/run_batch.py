@@ -1,0 +1,304 @@
+#!/usr/bin/env python3
+"""Compiles many programs with epiline-hls and compares native = dataflow graph = RTL, with few Verilator builds.
+
+All modules of a group stand in one Verilog wrapper, each with a clock of its own, so that a group costs one run of Verilator
+and one C++ build, and a module that is not being looked at costs nothing.
+
+  run_batch.py [options] kernels NAME...         tests/compiler/kernels/NAME.cpp with their drivers
+  run_batch.py [options] regressions NAME...     tests/compiler/regressions/NAME.cpp with their drivers
+  run_batch.py [options] random FIRST COUNT      programs of random_program.py, seeds FIRST to FIRST + COUNT - 1
+
+Prints one line a failure, which names the program's file, the level (compiler, native, graph, RTL) and the first differing
+token, and a summary. Exit code 1 if anything failed.
+"""
+
+import argparse
+import concurrent.futures
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+sys.path.insert(0, str(HERE))
+sys.path.insert(0, str(ROOT / "tb" / "cosim"))
+
+import random_program  # noqa: E402
+
+COMPILER_SECONDS = 60
+
+
+class Batch:
+    def __init__(self, options):
+        self.options = options
+        self.work = pathlib.Path(options.work).resolve()
+        self.failures = []
+        self.notes = []
+        self.sources = {}  # name -> source file
+        self.clocks = {}  # name -> clock option that was used
+        self.started = time.monotonic()
+
+    def fail(self, name, level, text):
+        self.failures.append((name, level, text))
+        source = self.sources.get(name)
+        print(f"FAILED {name}: {level}: {text}" + (f"\n    program: {source}" if source else ""), flush=True)
+
+    def stage(self, text):
+        print(f"[{time.monotonic() - self.started:6.1f} s] {text}", flush=True)
+
+    def parallel(self, function, items):
+        with concurrent.futures.ThreadPoolExecutor(self.options.jobs) as pool:
+            return list(pool.map(function, items))
+
+    # ---- native -------------------------------------------------------------------------------------------------
+    def native_flags(self):
+        return ["-std=c++20", "-w", "-O0", f"-I{ROOT / 'hls' / 'types'}", f"-I{HERE}"]
+
+    def run_native(self, names):
+        """Token files of kernels and regressions, by the driver program CMake built."""
+        tokens = self.work / "tokens"
+        tokens.mkdir(parents=True, exist_ok=True)
+        run = subprocess.run([self.options.drivers, str(tokens)] + names, capture_output=True, text=True, check=False)
+        if run.returncode != 0:
+            self.fail("drivers", "native", run.stderr.strip() or f"exit code {run.returncode}")
+        return [n for n in names if (tokens / f"{n}.tokens").exists()]
+
+    def build_random(self, names, compiler, tokens, extra=()):
+        """Compiles the drivers of random programs in few translation units and writes their token files."""
+        folder = self.work / "programs"
+        tokens.mkdir(parents=True, exist_ok=True)
+        build = self.work / ("native_" + re.sub(r"\W", "_", pathlib.Path(compiler).name))
+        build.mkdir(exist_ok=True)
+        size = 13
+        parts = [names[i:i + size] for i in range(0, len(names), size)]
+
+        def compile_part(index):
+            source = build / f"part_{index}.cpp"
+            source.write_text("".join(f'#include "{n}.drive.cpp"\n' for n in parts[index]), encoding="utf-8")
+            return subprocess.run([compiler, *self.native_flags(), *extra, f"-I{folder}", "-c", str(source), "-o",
+                                   str(source.with_suffix(".o"))], capture_output=True, text=True, check=False)
+
+        runs = self.parallel(compile_part, range(len(parts)))
+        main = build / "main.o"
+        runs.append(subprocess.run([compiler, *self.native_flags(), *extra, "-c", str(HERE / "drive_main.cpp"), "-o",
+                                    str(main)], capture_output=True, text=True, check=False))
+        for index, run in enumerate(runs):
+            if run.returncode != 0:
+                lines = [l for l in run.stderr.splitlines() if "error" in l][:5]
+                self.fail(f"part {index}", "native", "does not compile: " + "; ".join(lines))
+                return []
+        program = build / "drivers"
+        subprocess.run([compiler, *extra, *[str(build / f"part_{i}.o") for i in range(len(parts))], str(main), "-o",
+                        str(program)], check=True)
+        good = []
+        run = subprocess.run([str(program), str(tokens)], capture_output=True, text=True, check=False)
+        if run.returncode != 0:
+            # One of them stopped the program: find out which.
+            for name in names:
+                run = subprocess.run([str(program), str(tokens), name], capture_output=True, text=True, check=False)
+                if run.returncode != 0:
+                    self.fail(name, "native", run.stderr.strip()[-400:] or f"exit code {run.returncode}")
+                else:
+                    good.append(name)
+            return good
+        return list(names)
+
+    # ---- the compiler -------------------------------------------------------------------------------------------
+    def compile_program(self, name):
+        source = self.sources[name]
+        options = []
+        for line in source.read_text(encoding="utf-8").splitlines():
+            match = re.match(r"// epiline-hls: (.*)", line)
+            if match:
+                options = match.group(1).split()
+        folder = self.work / "rtl" / name
+        shutil.rmtree(folder, ignore_errors=True)
+        text = ""
+        for attempt in range(2):
+            command = [self.options.compiler, str(source), "--top", name, "-o", str(folder), *options]
+            try:
+                run = subprocess.run(command, capture_output=True, text=True, timeout=COMPILER_SECONDS, check=False)
+            except subprocess.TimeoutExpired:
+                self.fail(name, "compiler", f"takes more than {COMPILER_SECONDS} s: {' '.join(command)}")
+                return None
+            if run.returncode == 0:
+                return name
+            text = (run.stderr + run.stdout).strip()
+            # A period that is too short: the compiler says which one would do, and that one has to do.
+            smallest = re.search(r"smallest (?:clock )?period[^0-9]*([0-9.]+) ?ns", text)
+            if attempt == 1 or not smallest or not self.options.retry_period:
+                break
+            period = smallest.group(1)
+            options = ["--clock", f"{period}ns"]
+            self.notes.append(f"{name}: {period} ns")
+        code = f"exit code {run.returncode}" if run.returncode < 128 and run.returncode >= 0 else f"crashed ({run.returncode})"
+        self.fail(name, "compiler", f"{code}: {text[:700]}\n    command: {' '.join(command)}")
+        return None
+
+    # ---- RTL ----------------------------------------------------------------------------------------------------
+    def write_group(self, index, names):
+        """The wrapper of a group, the classes that make one module of it look like a model of its own, and their table."""
+        folder = self.work / "groups" / f"group_{index}"
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        wrapper_ports, instances = [], []
+        for name in names:
+            report = json.loads((self.work / "rtl" / name / "report.json").read_text(encoding="utf-8"))
+            signals = [("clk", 1, True), ("rst", 1, True)]
+            for port in report["interface"]["ports"]:
+                is_input = port["direction"] == "input"
+                signals.append((port["valid"], 1, is_input))
+                signals.append((port["ready"], 1, not is_input))
+                signals += [(field["rtl"], field["width"], is_input) for field in port["fields"]]
+            connections, members = [], []
+            for signal, width, is_input in signals:
+                full = f"{name}_0_{signal}"
+                wrapper_ports.append(f"{'input' if is_input else 'output'} wire [{width - 1}:0] {full}")
+                connections.append(f".{signal}({full})")
+                verilated = full.replace("__", "___05F")
+                members.append(f"  decltype(Vgroup::{verilated}) {signal.replace('__', '___05F')} = this->{verilated};")
+            instances.append(f"  {name} {name}_instance ({', '.join(connections)});")
+            (folder / f"V{name}.h").write_text(
+                "#pragma once\n#include \"Vgroup.h\"\n"
+                f"class V{name} : public Vgroup {{\n public:\n  using Vgroup::Vgroup;\n" + "\n".join(members) + "\n};\n",
+                encoding="utf-8")
+            subprocess.run([sys.executable, str(ROOT / "tb" / "cosim" / "make_model.py"),
+                            str(self.work / "rtl" / name / "report.json"), name, str(folder)], check=True)
+        (folder / "group.v").write_text(
+            "module group (\n  " + ",\n  ".join(wrapper_ports) + "\n);\n" + "\n".join(instances) + "\nendmodule\n",
+            encoding="utf-8")
+        table = ["#include <cstdint>", "#include <cstring>", '#include "cosim/model.hpp"']
+        table += [f'#include "{name}_model.cpp"' for name in names]
+        table.append('extern "C" epiline::cosim::rtl_model* epiline_make_model(const char* name, std::uint64_t seed) {')
+        table += [f'  if (std::strcmp(name, "{name}") == 0) return epiline::cosim::make_{name}_model(seed).release();'
+                  for name in names]
+        table += ["  return nullptr;", "}"]
+        (folder / "models.cpp").write_text("\n".join(table) + "\n", encoding="utf-8")
+        return folder
+
+    def build_group(self, folder, names):
+        verilog = [str(self.work / "rtl" / name / f"{name}.v") for name in names]
+        command = ["verilator", "--cc", "--quiet-exit", "--no-timing", "-O3", "--x-assign", "unique", "--x-initial",
+                   "unique", "--noassert", "--output-split", "15000", "--output-split-cfuncs", "500", "-Wall",
+                   "-Wno-fatal", "-Wno-lint", "-Wno-style", "-Wno-MODDUP", "--top-module", "group", "--prefix", "Vgroup",
+                   "--Mdir", str(folder / "model"), str(folder / "group.v"), *verilog]
+        run = subprocess.run(command, capture_output=True, text=True, check=False)
+        if run.returncode != 0:
+            return "Verilator: " + "; ".join(l for l in run.stderr.splitlines() if "rror" in l)[:600]
+        flags = [f"OPT_FAST={self.options.model_flags}", "OPT_SLOW=-O0", "USER_CPPFLAGS=-w -fPIC",
+                 f"CXX={self.options.cxx}", "VM_PARALLEL_BUILDS=1", "CFG_CXXFLAGS_STD=-std=c++20"]
+        run = subprocess.run(["make", "--silent", "-C", str(folder / "model"), "-f", "Vgroup.mk", "Vgroup__ALL.a", *flags],
+                             capture_output=True, text=True, check=False)
+        if run.returncode != 0:
+            return "C++ of the model: " + run.stderr[-600:]
+        root = subprocess.run(["verilator", "--getenv", "VERILATOR_ROOT"], capture_output=True, text=True,
+                              check=True).stdout.strip()
+        run = subprocess.run(
+            [self.options.cxx, "-std=c++20", "-O1", "-w", "-fPIC", "-shared", f"-I{folder}", f"-I{folder / 'model'}",
+             f"-I{ROOT / 'tb'}", f"-I{root}/include", f"-I{root}/include/vltstd", str(folder / "models.cpp"),
+             str(folder / "model" / "Vgroup__ALL.a"), self.options.verilated, "-pthread", "-o", str(folder / "models.so")],
+            capture_output=True, text=True, check=False)
+        if run.returncode != 0:
+            return "binding: " + "; ".join(l for l in run.stderr.splitlines() if "error" in l)[:600]
+        return None
+
+    def check_group(self, item):
+        index, names = item
+        tokens, rtl = self.work / "tokens", self.work / "rtl"
+        models = []
+        if not self.options.graph_only:
+            try:
+                folder = self.write_group(index, names)
+                problem = self.build_group(folder, names)
+            except (subprocess.CalledProcessError, OSError, KeyError, ValueError) as error:
+                problem = f"{type(error).__name__}: {error}"
+            if problem:
+                if len(names) > 1:  # find the module that is to blame, test the others
+                    half = len(names) // 2
+                    return self.check_group((f"{index}a", names[:half])) + self.check_group((f"{index}b", names[half:]))
+                self.fail(names[0], "RTL", problem)
+            else:
+                models = [str(folder / "models.so")]
+        run = subprocess.run([self.options.checker, str(tokens), str(rtl), *models, *names], capture_output=True, text=True,
+                             check=False)
+        bad = set()
+        for line in run.stdout.splitlines():
+            name, _, rest = line.partition(": ")
+            bad.add(name)
+            level, _, text = rest.partition(": ")
+            self.fail(name, level, text)
+        if run.returncode not in (0, 1):
+            self.fail(" ".join(names), "check", f"exit code {run.returncode}: {run.stderr.strip()}")
+            return []
+        return [n for n in names if n not in bad]
+
+    def check(self, names):
+        names = [n for n in self.parallel(self.compile_program, names) if n]
+        self.stage(f"{len(names)} compiled to Verilog")
+        size = self.options.group
+        groups = [(i // size, names[i:i + size]) for i in range(0, len(names), size)]
+        good = sum(self.parallel(self.check_group, groups), [])
+        self.stage("simulated")
+        return good
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--compiler", required=True, help="epiline-hls")
+    parser.add_argument("--checker", required=True, help="compiler_check_levels")
+    parser.add_argument("--verilated", default="", help="archive of Verilator's run-time library")
+    parser.add_argument("--drivers", default="", help="program of the kernels' drivers")
+    parser.add_argument("--work", required=True, help="folder for everything that is made")
+    parser.add_argument("--cxx", default="clang++-19")
+    parser.add_argument("--also-native", default="", help="a second C++ compiler: its native run must write the same tokens")
+    parser.add_argument("--model-flags", default="-O1")
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--group", type=int, default=25, help="modules in one Verilator build")
+    parser.add_argument("--graph-only", action="store_true", help="without RTL")
+    parser.add_argument("--no-retry-period", dest="retry_period", action="store_false",
+                        help="a period that is too short is a failure, even if the compiler names one that would do")
+    parser.add_argument("--sanitize", action="store_true", help="native runs with the undefined behaviour sanitizer")
+    parser.add_argument("what", choices=["kernels", "regressions", "random"])
+    parser.add_argument("names", nargs="+")
+    options = parser.parse_args()
+    batch = Batch(options)
+    batch.work.mkdir(parents=True, exist_ok=True)
+
+    if options.what == "random":
+        first, count = (int(n) for n in options.names)
+        names = [f"random_{seed}" for seed in range(first, first + count)]
+        folder = batch.work / "programs"
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir()
+        for seed in range(first, first + count):
+            random_program.write(seed, folder)
+        batch.sources = {n: folder / f"{n}.cpp" for n in names}
+        extra = ["-fsanitize=undefined", "-fno-sanitize-recover=all"] if options.sanitize else []
+        shutil.rmtree(batch.work / "tokens", ignore_errors=True)
+        ready = batch.build_random(names, options.cxx, batch.work / "tokens", extra)
+        if options.also_native:
+            other = batch.work / "tokens_other"
+            shutil.rmtree(other, ignore_errors=True)
+            for name in batch.build_random(names, options.also_native, other):
+                if (other / f"{name}.tokens").read_bytes() != (batch.work / "tokens" / f"{name}.tokens").read_bytes():
+                    batch.fail(name, "native", f"{options.cxx} and {options.also_native} disagree")
+    else:
+        names = options.names
+        batch.sources = {n: HERE / options.what / f"{n}.cpp" for n in names}
+        shutil.rmtree(batch.work / "tokens", ignore_errors=True)
+        ready = batch.run_native(names)
+    batch.stage(f"{len(ready)} ran natively")
+    good = batch.check(ready)
+    for note in batch.notes:
+        print(f"note: needs a longer period: {note}")
+    print(f"{len(good)} of {len(names)} equal: native = graph" + ("" if options.graph_only else " = RTL"))
+    sys.exit(0 if len(good) == len(names) and not batch.failures else 1)
+
+
+if __name__ == "__main__":
+    main()
