@@ -14,6 +14,10 @@
 #   Synthesizes the Verilog for ECP5 with scripts/synthesize.sh into <binary dir>/TARGET.netlist and makes a model of the
 #   netlist, like epiline_add_verilog_model. The folder is TARGET's property EPILINE_NETLIST_FOLDER.
 #
+# epiline_add_netlist_library(TARGET RTL rtl_target)
+#   The netlist of what epiline_add_rtl compiled, as shared library TARGET_library with the C function epiline_make_model,
+#   for programs that load it when they need it. Not part of the default build: a large netlist takes minutes.
+#
 # The targets are built when something that is built links them.
 
 find_program(EPILINE_VERILATOR verilator REQUIRED DOC "Verilator (Debian package verilator)")
@@ -120,7 +124,7 @@ function(epiline_add_rtl target)
   epiline_add_verilog_model(${target} TOP ${arg_TOP} VERILOG ${folder}/${arg_TOP}.v REPORT ${folder}/report.json)
   add_dependencies(${target}_verilated ${target}_verilog)
   add_dependencies(${target} ${target}_verilog)
-  set_target_properties(${target} PROPERTIES EPILINE_RTL_FOLDER ${folder})
+  set_target_properties(${target} PROPERTIES EPILINE_RTL_FOLDER ${folder} EPILINE_RTL_TOP ${arg_TOP})
 endfunction()
 
 function(epiline_add_netlist_model target)
@@ -146,4 +150,23 @@ function(epiline_add_netlist_model target)
   add_dependencies(${target}_verilated ${target}_netlist)
   add_dependencies(${target} ${target}_netlist)
   set_target_properties(${target} PROPERTIES EPILINE_NETLIST_FOLDER ${folder})
+endfunction()
+
+function(epiline_add_netlist_library target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "RTL" "")
+  get_target_property(folder ${arg_RTL} EPILINE_RTL_FOLDER)
+  get_target_property(top ${arg_RTL} EPILINE_RTL_TOP)
+  epiline_add_netlist_model(${target} TOP ${top} VERILOG ${folder}/${top}.v REPORT ${folder}/report.json)
+  add_dependencies(${target}_netlist ${arg_RTL}_verilog)
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${target}_library.cpp)
+  file(GENERATE OUTPUT ${source} CONTENT "// Entry of a model that is loaded at run time.
+#include \"${target}_model.hpp\"
+
+extern \"C\" epiline::cosim::rtl_model* epiline_make_model(std::uint64_t seed) {
+  return epiline::cosim::make_${target}_model(seed).release();
+}
+")
+  add_library(${target}_library SHARED EXCLUDE_FROM_ALL ${source})
+  target_link_libraries(${target}_library PRIVATE ${target})
+  add_dependencies(${target}_library ${target})
 endfunction()
