@@ -1,0 +1,191 @@
+#include "emit/plan.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace epiline::emit {
+
+using dataflow::graph;
+using dataflow::node;
+using dataflow::node_id;
+using dataflow::none;
+using dataflow::operation;
+using schedule::settled;
+using schedule::storage_kind;
+
+namespace {
+
+// From the issue to the credit's return: issue, FIFO write, load of the output register, its report to the counter,
+// the counter, and one credit kept back because the counter sees an issue a clock late.
+constexpr int credit_round_trip = 6;
+
+/// The 1-bit nodes whose conjunction `id` is, with their polarity.
+void collect_terms(const graph& g, node_id id, bool positive, std::vector<std::pair<node_id, bool>>& terms) {
+  const node& n = g.nodes[id];
+  if (n.kind == operation::bit_not && n.width == 1) {
+    collect_terms(g, n.operands[0], !positive, terms);
+  } else if ((n.kind == operation::bit_and && positive) || (n.kind == operation::bit_or && !positive)) {
+    for (const node_id operand : n.operands) collect_terms(g, operand, positive, terms);
+  } else {
+    terms.emplace_back(id, positive);
+  }
+}
+
+/// True when `a` and `b` are visibly never 1 together: one contains the inverse of a term of the other, or both
+/// compare one value with different constants.
+bool is_exclusive(const graph& g, node_id a, node_id b) {
+  std::vector<std::pair<node_id, bool>> a_terms, b_terms;
+  collect_terms(g, a, true, a_terms);
+  collect_terms(g, b, true, b_terms);
+  const auto constant_of = [&](const node& n) -> const node* {
+    for (const node_id operand : n.operands) {
+      if (g.nodes[operand].kind == operation::constant) return &g.nodes[operand];
+    }
+    return nullptr;
+  };
+  for (const auto& [x, x_positive] : a_terms) {
+    for (const auto& [y, y_positive] : b_terms) {
+      if (x == y && x_positive != y_positive) return true;
+      const node& p = g.nodes[x];
+      const node& q = g.nodes[y];
+      if (!x_positive || !y_positive || p.kind != operation::equal || q.kind != operation::equal) continue;
+      const node* const c = constant_of(p);
+      const node* const d = constant_of(q);
+      if (c == nullptr || d == nullptr || c->width != d->width || c->value == d->value) continue;
+      for (const node_id operand : p.operands) {
+        const bool shared = std::find(q.operands.begin(), q.operands.end(), operand) != q.operands.end();
+        if (shared && g.nodes[operand].kind != operation::constant) return true;
+      }
+    }
+  }
+  return false;
+}
+
+void plan_memories(const graph& g, const schedule::delay_model& model, const schedule::result& s, plan& p) {
+  p.memories.resize(g.memories.size());
+  for (std::size_t m = 0; m < g.memories.size(); ++m) p.memories[m].storage = model.storage(g.memories[m]);
+  for (node_id id = 0; id < g.nodes.size(); ++id) {
+    const node& n = g.nodes[id];
+    if (n.kind == operation::memory_write) p.memories[n.object].writes.push_back(id);
+    if (n.kind != operation::memory_read) continue;
+    std::vector<read_port>& ports = p.memories[n.object].reads;
+    const auto same = std::find_if(ports.begin(), ports.end(), [&](const read_port& port) {
+      return port.address == n.operands[0] && port.stage == s.stage[id];
+    });
+    if (same == ports.end()) {
+      ports.push_back({n.operands[0], s.stage[id], {id}});
+    } else {
+      same->reads.push_back(id);
+    }
+  }
+  for (memory_plan& memory : p.memories) {
+    for (std::size_t i = 0; i < memory.writes.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        memory.exclusive_writes &= is_exclusive(g, g.nodes[memory.writes[i]].operands[2],
+                                                g.nodes[memory.writes[j]].operands[2]);
+      }
+      for (const read_port& port : memory.reads) {
+        // Iterations met by a write after the read's stage are nearer than the memory's distance: never the same word.
+        memory.never_meets &= s.stage[memory.writes[i]] > port.stage;
+      }
+    }
+  }
+}
+
+void plan_waits(const graph& g, const schedule::delay_model& model, const schedule::result& s,
+                const delay_line_limits& limits, plan& p) {
+  std::vector<std::vector<int>> taps(g.nodes.size());
+  for (const schedule::use& u : schedule::uses(g, s)) {
+    if (u.stage > s.available[u.value]) taps[u.value].push_back(u.stage);
+  }
+  const bool has_distributed = model.parameters().distributed_max_words > 0;
+  std::map<std::pair<int, int>, std::vector<node_id>> long_waits;
+  p.waits.resize(g.nodes.size());
+  for (node_id id = 0; id < g.nodes.size(); ++id) {
+    std::vector<int>& stages = taps[id];
+    std::sort(stages.begin(), stages.end());
+    stages.erase(std::unique(stages.begin(), stages.end()), stages.end());
+    int at = s.available[id];
+    for (const int stage : stages) {
+      p.waits[id].push_back({at, stage, -1});
+      const bool is_long = stage - at >= limits.distributed_clocks && g.nodes[id].width >= limits.distributed_bits;
+      if (is_long) long_waits[{at, stage}].push_back(id);
+      at = stage;
+    }
+  }
+  for (const auto& [span, values] : long_waits) {
+    unsigned together = 0;
+    for (const node_id id : values) together += g.nodes[id].width;
+    const int clocks = span.second - span.first;
+    const bool block = (clocks >= limits.block_clocks || !has_distributed) && together >= limits.block_bits &&
+                       clocks >= 4;
+    if (!block && !has_distributed) continue;
+    // A block RAM's words are filled; LUT RAM comes in any width, so a value keeps a memory of its own.
+    const unsigned most = block ? std::max(model.parameters().block_max_width, 1u) : 0;
+    int open = -1;
+    for (const node_id id : values) {
+      const unsigned width = g.nodes[id].width;
+      if (open < 0 || p.lines[open].width + width > most) {
+        open = static_cast<int>(p.lines.size());
+        p.lines.push_back({span.first, span.second, 0,
+                           block ? storage_kind::block : storage_kind::distributed, {}});
+      }
+      delay_line& line = p.lines[open];
+      line.values.push_back(id);
+      line.width += width;
+      for (wait_step& step : p.waits[id]) {
+        if (step.from == span.first && step.to == span.second) step.line = open;
+      }
+    }
+  }
+  for (node_id id = 0; id < g.nodes.size(); ++id) {
+    for (const wait_step& step : p.waits[id]) {
+      if (step.line < 0) p.copy_bits += static_cast<std::uint64_t>(step.to - step.from) * g.nodes[id].width;
+    }
+  }
+  for (const delay_line& line : p.lines) p.copy_bits += line.width;
+}
+
+}  // namespace
+
+plan make_plan(const graph& g, const schedule::delay_model& model, const schedule::result& s,
+               const delay_line_limits& limits) {
+  plan p;
+  plan_waits(g, model, s, limits, p);
+  plan_memories(g, model, s, p);
+  for (node_id id = 0; id < g.nodes.size(); ++id) {
+    const node& n = g.nodes[id];
+    if (schedule::is_settled_register(g, s, id)) p.settled_bits += n.width;
+    if (n.kind == operation::memory_write) p.last_valid = std::max(p.last_valid, s.stage[id]);
+    if (n.kind != operation::write) continue;
+    p.last_valid = std::max(p.last_valid, s.stage[id]);
+    const auto same =
+        std::find_if(p.fifos.begin(), p.fifos.end(), [&](const output_fifo& f) { return f.port == n.object; });
+    if (same != p.fifos.end()) {
+      same->writes.push_back(id);
+    } else {
+      const auto in_flight = static_cast<unsigned>(s.stage[id] + credit_round_trip);
+      p.fifos.push_back({n.object, {id}, s.stage[id], std::bit_ceil(in_flight)});
+    }
+  }
+  std::sort(p.fifos.begin(), p.fifos.end(), [](const output_fifo& a, const output_fifo& b) { return a.port < b.port; });
+  for (std::size_t r = 0; r < g.registers.size(); ++r) {
+    p.last_valid = std::max(p.last_valid, s.register_update[r]);
+    if (s.register_stage[r] == settled) p.settled_bits += g.registers[r].width;
+  }
+  return p;
+}
+
+std::string signal_name(const dataflow::port& port, std::string_view signal) {
+  if (port.kind == dataflow::port_kind::call) {
+    if (signal == "tvalid" || signal == "tready") return "call_" + std::string(signal);
+    return std::string(signal);
+  }
+  return std::string(port.input ? "s_axis_" : "m_axis_") + port.name + "_" + std::string(signal);
+}
+
+}  // namespace epiline::emit

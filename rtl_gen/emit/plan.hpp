@@ -1,0 +1,78 @@
+#pragma once
+// What the hardware beside the operations is: copies of values that wait for a later stage, delay lines in RAM, FIFOs,
+// RAMs. Shared by the Verilog and the report, so that the report counts what is emitted.
+
+#include <cstdint>
+#include <vector>
+
+#include "dataflow/graph.hpp"
+#include "schedule/schedule.hpp"
+
+namespace epiline::emit {
+
+/// From which length on a wait is put into RAM instead of flip-flops.
+struct delay_line_limits {
+  int distributed_clocks = 6;   // LUT RAM from here on
+  int block_clocks = 17;        // block RAM from here on, if block_bits wait together; LUT RAM otherwise
+  unsigned distributed_bits = 8;  // fewer bits than these stay in flip-flops
+  unsigned block_bits = 24;
+};
+
+/// A value's way from the stage where it is there to the last stage that uses it, one step after another.
+struct wait_step {
+  int from = 0;
+  int to = 0;
+  int line = -1;  // index of plan::lines, or -1: one flip-flop a clock
+};
+
+/// Several values that wait for the same clocks, side by side in the words of one circular memory.
+struct delay_line {
+  int from = 0;
+  int to = 0;
+  unsigned width = 0;
+  schedule::storage_kind storage = schedule::storage_kind::distributed;
+  std::vector<dataflow::node_id> values;  // low bits first
+
+  [[nodiscard]] int clocks() const { return to - from; }
+  /// Words of the circular memory: the remaining clocks pass in the registers after it.
+  [[nodiscard]] int words() const { return storage == schedule::storage_kind::block ? clocks() - 1 : clocks(); }
+};
+
+struct output_fifo {
+  dataflow::port_id port = dataflow::none;
+  std::vector<dataflow::node_id> writes;
+  int stage = 0;
+  unsigned depth = 0;  // a power of two, larger than all that can be in flight
+};
+
+struct read_port {
+  dataflow::node_id address = dataflow::none;
+  int stage = 0;
+  std::vector<dataflow::node_id> reads;
+};
+
+struct memory_plan {
+  schedule::storage_kind storage = schedule::storage_kind::block;
+  std::vector<read_port> reads;
+  std::vector<dataflow::node_id> writes;
+  bool exclusive_writes = true;     // at most one of them is enabled: they share one write port
+  bool never_meets = true;          // a read never looks at the word written in the same clock
+};
+
+struct plan {
+  std::vector<std::vector<wait_step>> waits;  // per node
+  std::vector<delay_line> lines;
+  std::vector<output_fifo> fifos;
+  std::vector<memory_plan> memories;
+  int last_valid = 1;                   // the last stage that needs its valid bit
+  std::uint64_t copy_bits = 0;          // flip-flops of waiting values
+  std::uint64_t settled_bits = 0;       // flip-flops of settled values and of patient registers' next values
+};
+
+[[nodiscard]] plan make_plan(const dataflow::graph& g, const schedule::delay_model& model, const schedule::result& s,
+                             const delay_line_limits& limits = {});
+
+/// The RTL name of a port's signal: "s_axis_left_tdata", or the scalar's own name for a call port.
+[[nodiscard]] std::string signal_name(const dataflow::port& port, std::string_view signal);
+
+}  // namespace epiline::emit

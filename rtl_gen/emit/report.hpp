@@ -1,0 +1,26 @@
+#pragma once
+// What was built and why it is as large and as slow as it is: report.json (a stable schema) and report.txt, made from it.
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+#include "dataflow/graph.hpp"
+#include "emit/plan.hpp"
+#include "schedule/schedule.hpp"
+
+namespace epiline::emit {
+
+struct report_options {
+  delay_line_limits delay_lines;                            // the same as for the Verilog
+  nlohmann::json passes = nlohmann::json::array();          // statistics of the passes, as the caller has them
+};
+
+/// Schema "epiline-report/1"; docs/ describes it. Key "interface" suffices to drive the module.
+[[nodiscard]] nlohmann::json make_report(const dataflow::graph& g, const schedule::delay_model& model,
+                                         const schedule::result& s, const report_options& options = {});
+
+/// The same for people. `report` must come from make_report().
+[[nodiscard]] std::string report_text(const nlohmann::json& report);
+
+}  // namespace epiline::emit

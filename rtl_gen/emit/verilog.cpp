@@ -1,0 +1,1143 @@
+#include "emit/verilog.hpp"
+
+#include <fmt/format.h>
+
+#include <llvm/ADT/APInt.h>
+#include <llvm/ADT/SmallString.h>
+#include <llvm/ADT/StringRef.h>
+
+#include <algorithm>
+#include <bit>
+#include <cctype>
+#include <map>
+#include <stdexcept>
+#include <string_view>
+#include <unordered_set>
+#include <utility>
+
+namespace epiline::emit {
+
+using dataflow::graph;
+using dataflow::node;
+using dataflow::node_id;
+using dataflow::none;
+using dataflow::operation;
+using dataflow::port_kind;
+using dataflow::register_id;
+using schedule::settled;
+using schedule::storage_kind;
+
+namespace {
+
+// An expression stays inside its user's line while it is this short.
+constexpr std::size_t longest_inlined = 60;
+constexpr std::size_t longest_concat_line = 100;
+
+constexpr std::string_view keywords[] = {
+    "always",     "and",        "assign",    "automatic",   "begin",     "buf",          "bufif0",    "bufif1",
+    "case",       "casex",      "casez",     "cell",        "cmos",      "config",       "deassign",  "default",
+    "defparam",   "design",     "disable",   "edge",        "else",      "end",          "endcase",   "endconfig",
+    "endfunction", "endgenerate", "endmodule", "endprimitive", "endspecify", "endtable", "endtask",   "event",
+    "for",        "force",      "forever",   "fork",        "function",  "generate",     "genvar",    "highz0",
+    "highz1",     "if",         "ifnone",    "incdir",      "include",   "initial",      "inout",     "input",
+    "instance",   "integer",    "join",      "large",       "liblist",   "library",      "localparam", "macromodule",
+    "medium",     "module",     "nand",      "negedge",     "nmos",      "nor",          "noshowcancelled", "not",
+    "notif0",     "notif1",     "or",        "output",      "parameter", "pmos",         "posedge",   "primitive",
+    "pull0",      "pull1",      "pulldown",  "pullup",      "pulsestyle_onevent", "pulsestyle_ondetect", "rcmos",
+    "real",       "realtime",   "reg",       "release",     "repeat",    "rnmos",        "rpmos",     "rtran",
+    "rtranif0",   "rtranif1",   "scalared",  "showcancelled", "signed",  "small",        "specify",   "specparam",
+    "strong0",    "strong1",    "supply0",   "supply1",     "table",     "task",         "time",      "tran",
+    "tranif0",    "tranif1",    "tri",       "tri0",        "tri1",      "triand",       "trior",     "trireg",
+    "unsigned",   "use",        "uwire",     "vectored",    "wait",      "wand",         "weak0",     "weak1",
+    "while",      "wire",       "wor",       "xnor",        "xor",
+    // SystemVerilog's most likely names: tools may read .v files as SystemVerilog.
+    "bit",        "byte",       "char",      "class",       "const",     "do",           "enum",      "final",
+    "int",        "interface",  "local",     "logic",       "longint",   "new",          "null",      "package",
+    "priority",   "program",    "property",  "protected",   "ref",       "return",       "sequence",  "shortint",
+    "shortreal",  "static",     "string",    "struct",      "super",     "tagged",       "this",      "type",
+    "typedef",    "union",      "unique",    "var",         "virtual",   "void",         "with",      "within",
+    "break",      "continue",   "checker",   "clocking",    "context",   "cover",        "cross",     "dist",
+    "expect",     "export",     "extends",   "extern",      "first_match", "foreach",    "global",    "iff",
+    "import",     "inside",     "join_any",  "join_none",   "let",       "matches",      "modport",   "packed",
+    "pure",       "rand",       "randc",     "randcase",    "solve",     "strong",       "weak",      "throughout",
+    "timeprecision", "timeunit", "wildcard", "restrict",    "reject_on", "accept_on",    "assert",    "assume",
+    "before",     "bind",       "bins",      "binsof",      "covergroup", "coverpoint",  "endclass",  "implements",
+    "implies",    "intersect",  "nettype",   "nexttime",    "soft",      "untyped",      "until",     "chandle",
+    "alias",      "always_comb", "always_ff", "always_latch", "eventually", "forkjoin",  "unique0",   "s_always"};
+
+bool is_keyword(std::string_view name) {
+  return std::find(std::begin(keywords), std::end(keywords), name) != std::end(keywords);
+}
+
+bool is_identifier(std::string_view name) {
+  if (name.empty() || (!std::isalpha(static_cast<unsigned char>(name[0])) && name[0] != '_')) return false;
+  return std::all_of(name.begin(), name.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; });
+}
+
+std::string range_of(unsigned width) { return width == 1 ? "" : fmt::format("[{}:0] ", width - 1); }
+
+std::string literal(const llvm::APInt& value) {
+  const unsigned width = value.getBitWidth();
+  llvm::SmallString<64> digits;
+  const bool small = value.getActiveBits() <= 10;
+  value.toString(digits, small ? 10 : 16, false, false);
+  std::string text(digits.str());
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return fmt::format("{}'{}{}", width, small ? 'd' : 'h', text);
+}
+
+std::string literal(unsigned width, std::uint64_t value) { return literal(llvm::APInt(width, value)); }
+
+unsigned bits_for(std::uint64_t largest) { return std::max(1u, static_cast<unsigned>(std::bit_width(largest))); }
+
+std::string base_name(std::string_view path) {
+  const std::size_t slash = path.find_last_of('/');
+  return std::string(slash == std::string_view::npos ? path : path.substr(slash + 1));
+}
+
+class writer {
+ public:
+  writer(const graph& g, const schedule::delay_model& model, const schedule::result& s, const verilog_options& options)
+      : g_(g), s_(s), options_(options), model_(model), plan_(make_plan(g, model, s, options.delay_lines)) {}
+
+  std::string write();
+
+ private:
+  // --- names ---
+  std::string fresh(std::string_view wanted);
+  std::string fresh_port(const std::string& wanted);  // no internal signal of the port clashes either
+  void reserve_interface();
+  void choose_names();
+  void choose_inlined();
+  static std::string stage_name(std::string_view base, int stage) { return fmt::format("{}_s{}", base, stage); }
+
+  // --- expressions ---
+  struct text_of_value {
+    std::string text;
+    bool primary = true;     // may stand beside any operator without parentheses
+    bool identifier = true;  // a bit select may follow
+  };
+  text_of_value at(node_id id, int stage) const;
+  std::string operand(node_id id, int stage) const;    // parenthesised unless primary
+  std::string whole(node_id id, int stage) const;      // as a complete expression
+  text_of_value expression(node_id id) const;
+  std::string part(const text_of_value& v, node_id source, unsigned low, unsigned width) const;
+  std::string index(node_id address, int stage, std::uint64_t words) const;
+  std::string valid(int stage) const { return stage == 0 ? "fire" : fmt::format("valid[{}]", stage); }
+  std::string comment(dataflow::source_location where) const;
+  bool is_always(node_id id) const {
+    return g_.nodes[id].kind == operation::constant && g_.nodes[id].value.isAllOnes();
+  }
+
+  // --- text ---
+  template <class... Args>
+  void line(fmt::format_string<Args...> format, Args&&... args) {
+    fmt::format_to(std::back_inserter(out_), format, std::forward<Args>(args)...);
+    out_ += '\n';
+  }
+  void title(std::string_view text) { line("\n  // ---- {} ----", text); }
+  void write_heading();
+  void write_interface();
+  void write_control_declarations();
+  void write_inputs();
+  void write_settled();
+  void write_memory_declarations();
+  void write_stage(int stage);
+  void write_copies(int stage);
+  void write_logic(int stage);
+  void write_issue();
+  void write_state(int stage);
+  void write_memory_writes(int stage);
+  void write_valids();
+  void write_patient();
+  void write_outputs();
+  void write_delay_pointers();
+  void write_node(node_id id);
+  void declare_register(register_id r);
+
+  bool has_hold() const { return s_.hold > 0 || s_.initiation_interval > 1; }
+  int most_hold() const { return std::max(s_.hold, s_.initiation_interval - 1); }
+  int settle_clocks() const { return s_.hold - s_.commit; }
+
+  const graph& g_;
+  const schedule::result& s_;
+  const verilog_options& options_;
+  const schedule::delay_model& model_;
+  plan plan_;
+  std::string out_;
+  std::unordered_set<std::string> taken_;
+  std::map<std::string, unsigned, std::less<>> numbers_;
+  std::vector<std::string> node_name_, register_name_, memory_name_, table_name_, port_name_, line_name_;
+  std::vector<char> inlined_;
+  std::vector<std::string> pending_name_;  // patient registers' next value
+  std::vector<std::vector<node_id>> nodes_at_;      // per stage
+  std::vector<std::vector<register_id>> registers_at_, updates_at_;
+  std::vector<std::vector<std::size_t>> memory_reads_at_;  // unused entries stay empty
+};
+
+std::string writer::fresh(std::string_view wanted) {
+  std::string base;
+  for (const char c : wanted) {
+    const bool good = std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+    if (good) {
+      base += c;
+    } else if (!base.empty() && base.back() != '_') {
+      base += '_';
+    }
+  }
+  while (!base.empty() && base.back() == '_') base.pop_back();
+  if (base.empty() || std::isdigit(static_cast<unsigned char>(base[0]))) base = "v" + base;
+  // Names that look like a pipeline copy ("x_s3") or an internal number would be misread.
+  const std::size_t mark = base.find_last_not_of("0123456789");
+  if (mark != std::string::npos && mark + 1 < base.size() && base[mark] == 's' && mark > 0 && base[mark - 1] == '_') {
+    base += "_v";
+  }
+  std::string name = base;
+  if (is_keyword(name) || taken_.contains(name)) {
+    unsigned& number = numbers_[base];
+    do name = fmt::format("{}_{}", base, ++number);
+    while (taken_.contains(name));
+  }
+  taken_.insert(name);
+  return name;
+}
+
+std::string writer::fresh_port(const std::string& wanted) {
+  constexpr const char* suffixes[] = {"_token", "_spare",      "_there", "_spare_there", "_ready", "_take", "_push",
+                                      "_move",  "_fifo",       "_in",    "_out",         "_word",  "_left", "_skipped",
+                                      "_load",  "_word_there", "_data",  "_credits",     "_room",  "_credits_next"};
+  for (;;) {
+    const std::string name = fresh(wanted);
+    const bool clash = std::any_of(std::begin(suffixes), std::end(suffixes),
+                                   [&](const char* suffix) { return taken_.contains(name + suffix); });
+    if (clash) continue;
+    for (const char* suffix : suffixes) taken_.insert(name + suffix);
+    return name;
+  }
+}
+
+void writer::reserve_interface() {
+  std::vector<std::string> stems;
+  const auto reserve = [&](const std::string& name, std::string_view what) {
+    if (!is_identifier(name) || is_keyword(name)) {
+      throw std::invalid_argument(fmt::format("{} '{}' cannot have that name in Verilog", what, name));
+    }
+    if (!taken_.insert(name).second) {
+      throw std::invalid_argument(fmt::format("{} '{}' has the name of another signal of the module", what, name));
+    }
+    // A scalar named x_s3 keeps other values from being named x, whose copy in stage 3 would be called the same.
+    const std::size_t mark = name.find_last_not_of("0123456789");
+    if (mark != std::string::npos && mark > 1 && name.compare(mark - 1, 2, "_s") == 0) {
+      stems.push_back(name.substr(0, mark - 1));
+    }
+  };
+  reserve(g_.name, "top");
+  reserve("clk", "signal");
+  reserve("rst", "signal");
+  for (const dataflow::port& port : g_.ports) {
+    for (const dataflow::field& f : port.fields) reserve(signal_name(port, f.signal), "port signal");
+    reserve(signal_name(port, "tvalid"), "port signal");
+    reserve(signal_name(port, "tready"), "port signal");
+  }
+  for (const char* name : {"fire", "running", "valid", "hold", "hold_next", "holding", "commit"}) {
+    if (!taken_.insert(name).second) {
+      throw std::invalid_argument(fmt::format("port signal '{}' has the name of a control signal of the module", name));
+    }
+  }
+  taken_.insert(stems.begin(), stems.end());
+}
+
+void writer::choose_names() {
+  const auto letter_name = [](operation kind) {
+    switch (kind) {
+      case operation::add: return "sum";
+      case operation::subtract: return "difference";
+      case operation::multiply: return "product";
+      case operation::select: return "choice";
+      case operation::equal: return "same";
+      case operation::less_unsigned:
+      case operation::less_signed: return "less";
+      case operation::bit_and: return "both";
+      case operation::bit_or: return "either";
+      case operation::bit_xor: return "differ";
+      case operation::bit_not: return "inverse";
+      case operation::concat: return "joined";
+      case operation::slice: return "part";
+      case operation::extend_zero:
+      case operation::extend_sign: return "wide";
+      case operation::shift_left:
+      case operation::shift_right_logical:
+      case operation::shift_right_arithmetic: return "shifted";
+      case operation::table: return "entry";
+      case operation::memory_read: return "word";
+      case operation::read: return "token";
+      default: return "value";
+    }
+  };
+  for (const dataflow::port& port : g_.ports) port_name_.push_back(fresh_port(port.name));
+  for (const dataflow::register_state& r : g_.registers) register_name_.push_back(fresh(r.name.empty() ? "state" : r.name));
+  for (const dataflow::memory& m : g_.memories) memory_name_.push_back(fresh(m.name.empty() ? "ram" : m.name));
+  for (const dataflow::table& t : g_.tables) table_name_.push_back(fresh(t.name.empty() ? "rom" : t.name));
+  pending_name_.resize(g_.registers.size());
+  for (register_id r = 0; r < g_.registers.size(); ++r) {
+    if (s_.register_stage[r] == settled) pending_name_[r] = fresh(register_name_[r] + "_pending");
+  }
+  node_name_.resize(g_.nodes.size());
+  for (node_id id = 0; id < g_.nodes.size(); ++id) {
+    const node& n = g_.nodes[id];
+    if (n.kind == operation::constant || n.kind == operation::write || n.kind == operation::memory_write) continue;
+    if (n.kind == operation::register_value) {
+      node_name_[id] = register_name_[n.object];
+    } else if (!n.name.empty()) {
+      node_name_[id] = fresh(n.name);
+    } else {
+      node_name_[id] = fresh(fmt::format("{}_{}", letter_name(n.kind), id));
+    }
+    taken_.insert(node_name_[id] + "_q");
+    taken_.insert(node_name_[id] + "_exact");
+  }
+  for (const delay_line& l : plan_.lines) line_name_.push_back(fresh(fmt::format("wait_s{}_to_s{}_ram", l.from, l.to)));
+}
+
+void writer::choose_inlined() {
+  const std::size_t count = g_.nodes.size();
+  std::vector<unsigned> use_count(count, 0);
+  std::vector<char> needs_name(count, 0);
+  std::vector<int> use_stage(count, settled);
+  const auto note = [&](node_id value, int stage) {
+    ++use_count[value];
+    use_stage[value] = stage;
+  };
+  for (node_id id = 0; id < count; ++id) {
+    const node& n = g_.nodes[id];
+    for (const node_id operand : n.operands) {
+      note(operand, s_.stage[id]);
+      // What a bit select follows, and what is written more than once in the user's text.
+      const bool selects = n.kind == operation::slice || n.kind == operation::extend_sign;
+      const bool control = n.kind == operation::write || n.kind == operation::memory_write ||
+                           n.kind == operation::read || n.kind == operation::memory_read ||
+                           n.kind == operation::table;
+      const bool shift = n.kind == operation::shift_left || n.kind == operation::shift_right_logical ||
+                         n.kind == operation::shift_right_arithmetic;
+      const bool division = n.kind == operation::divide_unsigned || n.kind == operation::divide_signed ||
+                            n.kind == operation::remainder_unsigned || n.kind == operation::remainder_signed;
+      if (selects || control || shift || division) needs_name[operand] = 1;
+    }
+  }
+  for (register_id r = 0; r < g_.registers.size(); ++r) {
+    note(g_.registers[r].next, s_.register_update[r]);
+    note(g_.registers[r].enable, s_.register_update[r]);
+    needs_name[g_.registers[r].enable] = 1;
+  }
+  if (g_.patient != none) needs_name[g_.patient] = 1;
+  inlined_.assign(count, 0);
+  for (node_id id = 0; id < count; ++id) {
+    const node& n = g_.nodes[id];
+    const bool here = s_.stage[id] == settled || (use_stage[id] == s_.stage[id] && plan_.waits[id].empty());
+    const bool single = use_count[id] == 1 && n.name.empty() && !needs_name[id];
+    const auto is_plain = [&](node_id value) {
+      return g_.nodes[value].kind != operation::constant && !inlined_[value];
+    };
+    switch (n.kind) {
+      case operation::slice:
+        // Text as short as a name; a delayed slice still has copies of its own.
+        inlined_[id] = !needs_name[id] && n.name.empty() && is_plain(n.operands[0]);
+        break;
+      case operation::extend_zero:
+      case operation::extend_sign:
+        inlined_[id] = here && !needs_name[id] && n.name.empty() && is_plain(n.operands[0]);
+        break;
+      case operation::bit_not:
+        inlined_[id] = here && !needs_name[id] && n.name.empty() && is_plain(n.operands[0]);
+        break;
+      case operation::bit_and:
+      case operation::bit_or:
+      case operation::bit_xor:
+      case operation::equal:
+      case operation::less_unsigned:
+      case operation::less_signed:
+      case operation::select:
+      case operation::concat:
+        inlined_[id] = single && here && !schedule::is_settled_register(g_, s_, id) &&
+                       expression(id).text.size() <= longest_inlined;
+        break;
+      default: break;
+    }
+  }
+}
+
+writer::text_of_value writer::at(node_id id, int stage) const {
+  const node& n = g_.nodes[id];
+  if (n.kind == operation::constant) return {literal(n.value), true, false};
+  if (s_.stage[id] == settled || stage == s_.available[id]) {
+    if (inlined_[id]) return expression(id);
+    return {node_name_[id], true, true};
+  }
+  return {stage_name(node_name_[id], stage), true, true};
+}
+
+std::string writer::operand(node_id id, int stage) const {
+  const text_of_value v = at(id, stage);
+  return v.primary ? v.text : "(" + v.text + ")";
+}
+
+std::string writer::whole(node_id id, int stage) const { return at(id, stage).text; }
+
+std::string writer::part(const text_of_value& v, node_id source, unsigned low, unsigned width) const {
+  const node& n = g_.nodes[source];
+  if (n.kind == operation::constant) return literal(n.value.extractBits(width, low));
+  if (width == n.width) return v.text;
+  if (width == 1) return fmt::format("{}[{}]", v.text, low);
+  return fmt::format("{}[{}:{}]", v.text, low + width - 1, low);
+}
+
+std::string writer::index(node_id address, int stage, std::uint64_t words) const {
+  const unsigned width = g_.nodes[address].width;
+  const unsigned needed = bits_for(words - 1);
+  const text_of_value v = at(address, stage);
+  if (width > needed) return part(v, address, 0, needed);
+  if (width < needed) return fmt::format("{{{}, {}}}", literal(needed - width, 0), v.text);
+  return v.text;
+}
+
+std::string writer::comment(dataflow::source_location where) const {
+  if (where.line == 0 || where.file >= g_.files.size()) return "";
+  return fmt::format("  // {}:{}", base_name(g_.files[where.file]), where.line);
+}
+
+writer::text_of_value writer::expression(node_id id) const {
+  const node& n = g_.nodes[id];
+  const int stage = s_.stage[id];
+  const auto o = [&](std::size_t i) { return operand(n.operands[i], stage); };
+  const auto binary = [&](const char* symbol) -> text_of_value {
+    return {fmt::format("{} {} {}", o(0), symbol, o(1)), false, false};
+  };
+  const auto as_signed = [&](std::size_t i) { return fmt::format("$signed({})", whole(n.operands[i], stage)); };
+  switch (n.kind) {
+    case operation::add: return binary("+");
+    case operation::subtract: return binary("-");
+    case operation::multiply: return binary("*");
+    case operation::bit_and: return binary("&");
+    case operation::bit_or: return binary("|");
+    case operation::bit_xor: return binary("^");
+    case operation::bit_not: return {"~" + o(0), true, false};
+    case operation::equal: return binary("==");
+    case operation::less_unsigned: return binary("<");
+    case operation::less_signed: return {fmt::format("{} < {}", as_signed(0), as_signed(1)), false, false};
+    case operation::select: return {fmt::format("{} ? {} : {}", o(0), o(1), o(2)), false, false};
+    case operation::shift_left:
+    case operation::shift_right_logical:
+    case operation::shift_right_arithmetic: {
+      const bool arithmetic = n.kind == operation::shift_right_arithmetic;
+      const char* const symbol = n.kind == operation::shift_left ? "<<" : arithmetic ? ">>>" : ">>";
+      const std::string value = arithmetic ? as_signed(0) : o(0);
+      const node& amount = g_.nodes[n.operands[1]];
+      constexpr unsigned most = 17;  // amounts of more bits than any width has: tools take 32 at most
+      if (amount.width <= most) return {fmt::format("{} {} {}", value, symbol, o(1)), false, false};
+      const text_of_value full = at(n.operands[1], stage);
+      if (amount.kind == operation::constant) {
+        const llvm::APInt limited(most, amount.value.getLimitedValue((1u << most) - 1));
+        return {fmt::format("{} {} {}", value, symbol, literal(limited)), false, false};
+      }
+      // Saturated: any amount with a high bit set shifts everything out.
+      return {fmt::format("{} {} ({} | {{{}{{|{}}}}})", value, symbol, part(full, n.operands[1], 0, most), most,
+                          part(full, n.operands[1], most, amount.width - most)),
+              false, false};
+    }
+    case operation::divide_unsigned: return binary("/");
+    case operation::remainder_unsigned: return binary("%");
+    case operation::divide_signed: return {fmt::format("{} / {}", as_signed(0), as_signed(1)), false, false};
+    case operation::remainder_signed: return {fmt::format("{} % {}", as_signed(0), as_signed(1)), false, false};
+    case operation::slice: {
+      const text_of_value v = at(n.operands[0], stage);
+      // A part of a slice that is its operand's text needs no brackets of its own only when it is everything.
+      return {part(v, n.operands[0], n.low, n.width), true, false};
+    }
+    case operation::extend_zero: {
+      const unsigned more = n.width - g_.nodes[n.operands[0]].width;
+      return {fmt::format("{{{}, {}}}", literal(more, 0), whole(n.operands[0], stage)), true, false};
+    }
+    case operation::extend_sign: {
+      const node& a = g_.nodes[n.operands[0]];
+      if (a.kind == operation::constant) return {literal(a.value.sext(n.width)), true, false};
+      const unsigned more = n.width - a.width;
+      const text_of_value v = at(n.operands[0], stage);
+      return {fmt::format("{{{{{}{{{}}}}}, {}}}", more, part(v, n.operands[0], a.width - 1, 1), v.text), true, false};
+    }
+    case operation::concat: {
+      std::string text = "{";
+      std::size_t length = 0;
+      for (std::size_t i = 0; i < n.operands.size(); ++i) {
+        const std::string item = whole(n.operands[i], stage);
+        if (i > 0) {
+          text += ", ";
+          length += item.size() + 2;
+          if (length > longest_concat_line) {
+            text += "\n    ";
+            length = item.size();
+          }
+        }
+        text += item;
+      }
+      return {text + "}", true, false};
+    }
+    default: return {node_name_[id], true, true};
+  }
+}
+
+void writer::write_heading() {
+  line("// {}: made by epiline-hls.", g_.name);
+  if (!options_.heading.empty()) {
+    std::string_view rest = options_.heading;
+    while (!rest.empty()) {
+      const std::size_t end = rest.find('\n');
+      line("// {}", rest.substr(0, end));
+      rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
+    }
+  }
+  line("// {} stages, one iteration every {} clock{}; period {:.2f} ns, target {}.", s_.depth, s_.initiation_interval,
+       s_.initiation_interval == 1 ? "" : "s", s_.period, model_.target());
+  line("//");
+  line("// An iteration is issued (fire) when all it reads is there and every output has room for it. From then on it");
+  line("// moves one stage a clock and never stops: values of stage 3 are named ..._s3 once they have left the stage");
+  line("// that made them. State changes only where the stage's valid bit is set.");
+  line("//");
+  line("// UNUSED is waived because a narrow user may take some bits only of a value, a token or a scalar.");
+  line("/* verilator lint_off UNUSED */");
+  line("`default_nettype none");
+  line("");
+}
+
+void writer::write_interface() {
+  line("module {} (", g_.name);
+  line("  input  wire clk,");
+  out_ += "  input  wire rst";
+  for (const dataflow::port& port : g_.ports) {
+    out_ += ",\n";
+    const auto put = [&](bool input, unsigned width, const std::string& name) {
+      fmt::format_to(std::back_inserter(out_), "  {} wire {}{}", input ? "input " : "output", range_of(width), name);
+    };
+    if (port.where.line != 0) out_ += comment(port.where) + "\n";
+    for (const dataflow::field& f : port.fields) {
+      put(port.input, f.width, signal_name(port, f.signal));
+      out_ += ",\n";
+    }
+    put(port.input, 1, signal_name(port, "tvalid"));
+    out_ += ",\n";
+    put(!port.input, 1, signal_name(port, "tready"));
+  }
+  out_ += "\n);\n";
+}
+
+void writer::write_control_declarations() {
+  title("control");
+  line("  wire fire;                // an iteration is issued in this clock");
+  line("  reg running;              // out of reset");
+  line("  reg [{}:1] valid;          // which stages hold an iteration", plan_.last_valid);
+  if (has_hold()) {
+    line("  reg [{}:0] hold;           // clocks until the next issue may come", bits_for(most_hold() + 1) - 1);
+    line("  reg holding;");
+  }
+}
+
+void writer::write_inputs() {
+  for (std::size_t i = 0; i < g_.ports.size(); ++i) {
+    const dataflow::port& port = g_.ports[i];
+    if (!port.input) continue;
+    const std::string& name = port_name_[i];
+    title(fmt::format("input {}: two registers deep, so that tready comes from a flip-flop", port.name));
+    std::string token;
+    for (std::size_t f = port.fields.size(); f-- > 0;) {
+      if (!token.empty()) token += ", ";
+      token += signal_name(port, port.fields[f].signal);
+    }
+    if (port.fields.size() > 1) token = "{" + token + "}";
+    const std::string range = range_of(port.width);
+    const std::string valid_in = signal_name(port, "tvalid");
+    const std::string ready = name + "_ready";
+    line("  reg {}{}_token, {}_spare;", range, name, name);
+    line("  reg {}_there, {}_spare_there, {};", name, name, ready);
+    line("  wire {}_take;", name);
+    line("  wire {}_push = {} & {};", name, valid_in, ready);
+    line("  wire {}_move = {}_take | ~{}_there;", name, name, name);
+    line("  assign {} = {};", signal_name(port, "tready"), ready);
+    line("  always @(posedge clk) begin");
+    line("    if ({}_move) {}_token <= {}_spare_there ? {}_spare : {};", name, name, name, name, token);
+    line("    if ({}) {}_spare <= {};", ready, name, token);
+    line("    if ({}_move) begin", name);
+    line("      {}_there <= {}_spare_there | {}_push;", name, name, name);
+    line("      {}_spare_there <= 1'b0;", name);
+    line("      {} <= 1'b1;", ready);
+    line("    end else begin");
+    line("      {}_spare_there <= {}_spare_there | {}_push;", name, name, name);
+    line("      {} <= ~({}_spare_there | {}_push);", ready, name, name);
+    line("    end");
+    line("    if (rst) begin");
+    line("      {}_there <= 1'b0;", name);
+    line("      {}_spare_there <= 1'b0;", name);
+    line("      {} <= 1'b0;", ready);
+    line("    end");
+    line("  end");
+  }
+}
+
+void writer::declare_register(register_id r) {
+  line("  reg {}{};{}", range_of(g_.registers[r].width), register_name_[r], comment(g_.registers[r].where));
+}
+
+void writer::write_settled() {
+  std::vector<node_id> logic;
+  for (node_id id = 0; id < g_.nodes.size(); ++id) {
+    if (s_.stage[id] == settled && g_.nodes[id].kind != operation::constant &&
+        g_.nodes[id].kind != operation::register_value) {
+      logic.push_back(id);
+    }
+  }
+  bool any = !logic.empty();
+  for (register_id r = 0; r < g_.registers.size(); ++r) any |= s_.register_stage[r] == settled;
+  if (!any) return;
+  title("values that change only while no iteration is in flight");
+  for (register_id r = 0; r < g_.registers.size(); ++r) {
+    if (s_.register_stage[r] == settled) declare_register(r);
+  }
+  std::vector<node_id> clocked;
+  for (const node_id id : logic) {
+    const node& n = g_.nodes[id];
+    if (inlined_[id]) continue;
+    if (schedule::is_settled_register(g_, s_, id)) {
+      line("  reg {}{};{}", range_of(n.width), node_name_[id], comment(n.where));
+      clocked.push_back(id);
+    } else {
+      write_node(id);
+    }
+  }
+  if (clocked.empty()) return;
+  line("  always @(posedge clk) begin");
+  for (const node_id id : clocked) {
+    const node& n = g_.nodes[id];
+    const bool quotient = n.kind == operation::divide_unsigned || n.kind == operation::divide_signed;
+    const bool remainder = n.kind == operation::remainder_unsigned || n.kind == operation::remainder_signed;
+    line("    {} <= {};", node_name_[id], expression(id).text);
+    if (quotient || remainder) {
+      const std::string by_zero = quotient ? fmt::format("{{{}{{1'b1}}}}", n.width) : whole(n.operands[0], settled);
+      line("    if ({} == {}) {} <= {};", operand(n.operands[1], settled), literal(n.width, 0), node_name_[id], by_zero);
+    }
+  }
+  line("  end");
+}
+
+void writer::write_memory_declarations() {
+  const auto style = [](storage_kind kind) {
+    return kind == storage_kind::block ? "ram_style = \"block\"" : "ram_style = \"distributed\"";
+  };
+  if (!g_.memories.empty()) title("memories: never reset, and not read before they are written");
+  for (std::size_t m = 0; m < g_.memories.size(); ++m) {
+    const dataflow::memory& memory = g_.memories[m];
+    const memory_plan& p = plan_.memories[m];
+    line("  (* {}{} *)", style(p.storage), p.never_meets ? ", no_rw_check" : "");
+    line("  reg {}{} [0:{}];{}", range_of(memory.width), memory_name_[m], memory.words - 1, comment(memory.where));
+    if (memory.initial.empty()) continue;
+    line("  initial begin");
+    for (std::size_t i = 0; i < memory.initial.size(); ++i) {
+      line("    {}[{}] = {};", memory_name_[m], i, literal(memory.initial[i]));
+    }
+    line("  end");
+  }
+  if (!g_.tables.empty()) title("constant tables");
+  for (std::size_t t = 0; t < g_.tables.size(); ++t) {
+    const dataflow::table& table = g_.tables[t];
+    const std::uint64_t words = std::bit_ceil(table.values.size());
+    if (model_.storage(table) == storage_kind::block) line("  (* rom_style = \"block\" *)");
+    line("  reg {}{} [0:{}];{}", range_of(table.width), table_name_[t], words - 1, comment(table.where));
+    line("  initial begin");
+    for (std::uint64_t i = 0; i < words; ++i) {
+      line("    {}[{}] = {};", table_name_[t], i,
+           i < table.values.size() ? literal(table.values[i]) : literal(table.width, 0));
+    }
+    line("  end");
+  }
+}
+
+void writer::write_copies(int stage) {
+  // Flip-flops that hold in this stage what the stage before had; delay lines that end here.
+  std::vector<std::pair<std::string, std::string>> moves;
+  for (node_id id = 0; id < g_.nodes.size(); ++id) {
+    for (const wait_step& step : plan_.waits[id]) {
+      if (step.line >= 0 || stage <= step.from || stage > step.to) continue;
+      const std::string name = stage_name(node_name_[id], stage);
+      line("  reg {}{};", range_of(g_.nodes[id].width), name);
+      moves.emplace_back(name, whole(id, stage - 1));
+    }
+  }
+  for (std::size_t i = 0; i < plan_.lines.size(); ++i) {
+    const delay_line& l = plan_.lines[i];
+    if (l.to != stage) continue;
+    const bool block = l.storage == storage_kind::block;
+    const std::string& name = line_name_[i];
+    line("  (* ram_style = \"{}\", no_rw_check *)", block ? "block" : "distributed");
+    line("  reg {}{} [0:{}];", range_of(l.width), name, l.words() - 1);
+    if (block) line("  reg {}{}_q;", range_of(l.width), name);
+    std::string data;
+    for (std::size_t v = l.values.size(); v-- > 0;) {
+      const node_id id = l.values[v];
+      line("  reg {}{};", range_of(g_.nodes[id].width), stage_name(node_name_[id], stage));
+      if (!data.empty()) data += ", ";
+      data += whole(id, l.from);
+    }
+    if (l.values.size() > 1) data = "{" + data + "}";
+    std::string target;
+    for (std::size_t v = l.values.size(); v-- > 0;) {
+      if (!target.empty()) target += ", ";
+      target += stage_name(node_name_[l.values[v]], stage);
+    }
+    if (l.values.size() > 1) target = "{" + target + "}";
+    moves.emplace_back(fmt::format("{}[delay_{}_in]", name, l.words()), data);
+    const std::string word = fmt::format("{}[delay_{}_out]", name, l.words());
+    if (block) {
+      moves.emplace_back(name + "_q", word);
+      moves.emplace_back(target, name + "_q");
+    } else {
+      moves.emplace_back(target, word);
+    }
+  }
+  // Words of block RAMs and tables whose address stood two stages earlier.
+  for (std::size_t m = 0; m < g_.memories.size(); ++m) {
+    if (plan_.memories[m].storage != storage_kind::block) continue;
+    for (const read_port& port : plan_.memories[m].reads) {
+      if (port.stage + 2 != stage) continue;
+      const std::string first = node_name_[port.reads[0]];
+      for (const node_id id : port.reads) {
+        line("  reg {}{};{}", range_of(g_.nodes[id].width), node_name_[id], comment(g_.nodes[id].where));
+        moves.emplace_back(node_name_[id], first + "_q");
+      }
+    }
+  }
+  for (node_id id = 0; id < g_.nodes.size(); ++id) {
+    const node& n = g_.nodes[id];
+    if (n.kind != operation::table || s_.available[id] == s_.stage[id] || s_.available[id] != stage) continue;
+    line("  reg {}{};{}", range_of(n.width), node_name_[id], comment(n.where));
+    moves.emplace_back(node_name_[id], node_name_[id] + "_q");
+  }
+  if (moves.empty()) return;
+  line("  always @(posedge clk) begin");
+  for (const auto& [target, source] : moves) line("    {} <= {};", target, source);
+  line("  end");
+}
+
+void writer::write_node(node_id id) {
+  const node& n = g_.nodes[id];
+  const int stage = s_.stage[id];
+  const std::string& name = node_name_[id];
+  const std::string range = range_of(n.width);
+  const std::string note = comment(n.where);
+  switch (n.kind) {
+    case operation::constant:
+    case operation::register_value:
+    case operation::write:
+    case operation::memory_write: return;
+    case operation::read: {
+      const std::string token = port_name_[n.object] + "_token";
+      if (is_always(n.operands[0])) {
+        line("  wire {}{} = {};{}", range, name, token, note);
+      } else {
+        line("  wire {}{} = {} ? {} : {};{}", range, name, operand(n.operands[0], stage), token, literal(n.width, 0),
+             note);
+      }
+      return;
+    }
+    case operation::memory_read:
+      if (plan_.memories[n.object].storage != storage_kind::block) {
+        line("  wire {}{} = {}[{}];{}", range, name, memory_name_[n.object],
+             index(n.operands[0], stage, g_.memories[n.object].words), note);
+      }
+      return;
+    case operation::table: {
+      const dataflow::table& table = g_.tables[n.object];
+      const std::uint64_t words = std::bit_ceil(table.values.size());
+      const unsigned needed = bits_for(words - 1);
+      const unsigned width = g_.nodes[n.operands[0]].width;
+      std::string word = fmt::format("{}[{}]", table_name_[n.object], index(n.operands[0], stage, words));
+      if (width > needed) {  // past the end
+        word = fmt::format("({} == {}) ? {} : {}", part(at(n.operands[0], stage), n.operands[0], needed, width - needed),
+                           literal(width - needed, 0), word, literal(n.width, 0));
+      }
+      if (s_.available[id] == stage) {
+        line("  wire {}{} = {};{}", range, name, word, note);
+      } else {
+        line("  reg {}{}_q;", range, name);
+        line("  always @(posedge clk) {}_q <= {};", name, word);
+      }
+      return;
+    }
+    case operation::divide_unsigned:
+    case operation::divide_signed:
+    case operation::remainder_unsigned:
+    case operation::remainder_signed: {
+      const bool quotient = n.kind == operation::divide_unsigned || n.kind == operation::divide_signed;
+      line("  wire {}{}_exact = {};", range, name, expression(id).text);
+      const std::string by_zero = quotient ? fmt::format("{{{}{{1'b1}}}}", n.width) : operand(n.operands[0], stage);
+      line("  wire {}{} = ({} == {}) ? {} : {}_exact;{}", range, name, operand(n.operands[1], stage),
+           literal(n.width, 0), by_zero, name, note);
+      return;
+    }
+    default: break;
+  }
+  line("  wire {}{} = {};{}", range, name, expression(id).text, note);
+}
+
+void writer::write_logic(int stage) {
+  for (const node_id id : nodes_at_[stage]) {
+    if (!inlined_[id]) write_node(id);
+  }
+  // Addresses of block RAMs: the word leaves the RAM a clock later and its register another clock later.
+  for (std::size_t m = 0; m < g_.memories.size(); ++m) {
+    if (plan_.memories[m].storage != storage_kind::block) continue;
+    for (const read_port& port : plan_.memories[m].reads) {
+      if (port.stage != stage) continue;
+      const std::string& name = node_name_[port.reads[0]];
+      line("  reg {}{}_q;{}", range_of(g_.memories[m].width), name, comment(g_.nodes[port.reads[0]].where));
+      line("  always @(posedge clk) {}_q <= {}[{}];", name, memory_name_[m],
+           index(port.address, stage, g_.memories[m].words));
+    }
+  }
+}
+
+void writer::write_issue() {
+  std::string conditions = "running";
+  std::map<dataflow::port_id, std::vector<node_id>> reads;
+  for (node_id id = 0; id < g_.nodes.size(); ++id) {
+    if (g_.nodes[id].kind == operation::read) reads[g_.nodes[id].object].push_back(id);
+  }
+  if (has_hold()) conditions += " & ~holding";
+  for (const output_fifo& f : plan_.fifos) conditions += fmt::format("\n    & {}_room", port_name_[f.port]);
+  for (const auto& [port, nodes] : reads) {
+    for (const node_id id : nodes) {
+      const node_id predicate = g_.nodes[id].operands[0];
+      if (is_always(predicate)) {
+        conditions += fmt::format("\n    & {}_there", port_name_[port]);
+      } else {
+        conditions += fmt::format("\n    & ({}_there | ~{})", port_name_[port], operand(predicate, 0));
+      }
+    }
+  }
+  line("  assign fire = {};", conditions);
+  for (std::size_t i = 0; i < g_.ports.size(); ++i) {
+    if (!g_.ports[i].input) continue;
+    const auto port = static_cast<dataflow::port_id>(i);
+    std::string take;
+    if (const auto found = reads.find(port); found != reads.end()) {
+      for (const node_id id : found->second) {
+        if (!take.empty()) take += " | ";
+        take += operand(g_.nodes[id].operands[0], 0);
+      }
+    }
+    if (take.empty()) {
+      line("  assign {}_take = 1'b0;", port_name_[i]);
+    } else {
+      line("  assign {}_take = fire & ({});", port_name_[i], take);
+    }
+  }
+  if (!has_hold()) return;
+  const unsigned width = bits_for(most_hold() + 1);
+  const int after_any = s_.initiation_interval - 1;
+  std::string after = literal(width, after_any);
+  if (g_.patient != none && s_.hold > 0) {
+    after = fmt::format("({} ? {} : {})", operand(g_.patient, 0), literal(width, std::max(s_.hold, after_any)), after);
+  }
+  line("  wire {}hold_next = fire ? {} : holding ? hold - {} : {};", range_of(width), after, literal(width, 1),
+       literal(width, 0));
+  line("  always @(posedge clk) begin");
+  line("    hold <= hold_next;");
+  line("    holding <= hold_next != {};", literal(width, 0));
+  line("    if (rst) begin");
+  line("      hold <= {};", literal(width, std::max(1, settle_clocks())));
+  line("      holding <= 1'b1;");
+  line("    end");
+  line("  end");
+}
+
+void writer::write_state(int stage) {
+  const std::vector<register_id>& here = updates_at_[stage];
+  if (here.empty()) return;
+  std::vector<std::pair<node_id, std::vector<register_id>>> groups;  // by enable, in order of appearance
+  std::map<node_id, std::size_t> group_of;
+  for (const register_id r : here) {
+    const node_id enable = g_.registers[r].enable;
+    const auto [found, fresh_group] = group_of.try_emplace(is_always(enable) ? none : enable, groups.size());
+    if (fresh_group) groups.emplace_back(is_always(enable) ? none : enable, std::vector<register_id>());
+    groups[found->second].second.push_back(r);
+  }
+  const auto target = [&](register_id r) {
+    return s_.register_stage[r] == settled ? pending_name_[r] : register_name_[r];
+  };
+  for (const register_id r : here) {
+    if (s_.register_stage[r] == settled) line("  reg {}{};", range_of(g_.registers[r].width), pending_name_[r]);
+  }
+  line("  always @(posedge clk) begin");
+  line("    if ({}) begin", valid(stage));
+  for (const auto& [enable, registers] : groups) {
+    const bool conditional = enable != none;
+    if (conditional) line("      if ({}) begin", whole(enable, stage));
+    for (const register_id r : registers) {
+      line("      {}{} <= {};{}", conditional ? "  " : "", target(r), whole(g_.registers[r].next, stage),
+           comment(g_.registers[r].where));
+    }
+    if (conditional) line("      end");
+  }
+  line("    end");
+  std::string resets;
+  for (const register_id r : here) {
+    if (!g_.registers[r].initial) continue;
+    fmt::format_to(std::back_inserter(resets), "      {} <= {};\n", target(r), literal(*g_.registers[r].initial));
+  }
+  if (!resets.empty()) {
+    line("    if (rst) begin");
+    out_ += resets;
+    line("    end");
+  }
+  line("  end");
+}
+
+void writer::write_memory_writes(int stage) {
+  for (std::size_t m = 0; m < g_.memories.size(); ++m) {
+    const memory_plan& p = plan_.memories[m];
+    if (p.writes.empty() || s_.stage[p.writes[0]] != stage) continue;
+    const std::string& name = memory_name_[m];
+    const std::uint64_t words = g_.memories[m].words;
+    const auto enable = [&](node_id id) {
+      const node_id e = g_.nodes[id].operands[2];
+      return is_always(e) ? valid(stage) : fmt::format("{} & {}", valid(stage), operand(e, stage));
+    };
+    if (p.writes.size() == 1 || !p.exclusive_writes) {
+      line("  always @(posedge clk) begin{}", comment(g_.nodes[p.writes[0]].where));
+      for (const node_id id : p.writes) {
+        const node& n = g_.nodes[id];
+        line("    if ({}) {}[{}] <= {};", enable(id), name, index(n.operands[0], stage, words),
+             whole(n.operands[1], stage));
+      }
+      line("  end");
+      continue;
+    }
+    // At most one is enabled: one write port.
+    std::string any, address, data;
+    for (const node_id id : p.writes) {
+      const node& n = g_.nodes[id];
+      const std::string e = operand(n.operands[2], stage);
+      any += (any.empty() ? "" : " | ") + e;
+      if (id == p.writes.back()) {
+        address += index(n.operands[0], stage, words);
+        data += operand(n.operands[1], stage);
+      } else {
+        address += fmt::format("{} ? {} : ", e, index(n.operands[0], stage, words));
+        data += fmt::format("{} ? {} : ", e, operand(n.operands[1], stage));
+      }
+    }
+    const std::string port = fresh(name + "_write");
+    const std::string port_address = fresh(name + "_write_address");
+    const std::string port_data = fresh(name + "_write_data");
+    line("  wire {} = {} & ({});", port, valid(stage), any);
+    line("  wire {}{} = {};", range_of(bits_for(words - 1)), port_address, address);
+    line("  wire {}{} = {};", range_of(g_.memories[m].width), port_data, data);
+    line("  always @(posedge clk) begin");
+    line("    if ({}) {}[{}] <= {};", port, name, port_address, port_data);
+    line("  end");
+  }
+}
+
+void writer::write_stage(int stage) {
+  title(fmt::format("stage {}", stage));
+  for (const register_id r : registers_at_[stage]) declare_register(r);
+  write_copies(stage);
+  write_logic(stage);
+  if (stage == 0) write_issue();
+  write_state(stage);
+  write_memory_writes(stage);
+}
+
+void writer::write_patient() {
+  std::vector<register_id> patient;
+  for (register_id r = 0; r < g_.registers.size(); ++r) {
+    if (s_.register_stage[r] == settled) patient.push_back(r);
+  }
+  if (patient.empty()) return;
+  title("registers that wait for the pipeline to drain");
+  line("  wire commit = holding & (hold == {});", literal(bits_for(most_hold() + 1), settle_clocks() + 1));
+  line("  always @(posedge clk) begin");
+  line("    if (commit) begin");
+  for (const register_id r : patient) line("      {} <= {};", register_name_[r], pending_name_[r]);
+  line("    end");
+  std::string resets;
+  for (const register_id r : patient) {
+    if (!g_.registers[r].initial) continue;
+    fmt::format_to(std::back_inserter(resets), "      {} <= {};\n", register_name_[r],
+                   literal(*g_.registers[r].initial));
+  }
+  if (!resets.empty()) {
+    line("    if (rst) begin");
+    out_ += resets;
+    line("    end");
+  }
+  line("  end");
+}
+
+void writer::write_valids() {
+  title("valid bits");
+  line("  always @(posedge clk) begin");
+  line("    running <= ~rst;");
+  if (plan_.last_valid > 1) {
+    line("    valid <= rst ? {} : {{valid[{}:1], fire}};", literal(plan_.last_valid, 0), plan_.last_valid - 1);
+  } else {
+    line("    valid <= rst ? 1'd0 : fire;");
+  }
+  line("  end");
+}
+
+void writer::write_outputs() {
+  for (std::size_t i = 0; i < g_.ports.size(); ++i) {
+    const dataflow::port& port = g_.ports[i];
+    if (port.input) continue;
+    const auto found = std::find_if(plan_.fifos.begin(), plan_.fifos.end(), [&](const output_fifo& f) {
+      return f.port == static_cast<dataflow::port_id>(i);
+    });
+    const std::string& name = port_name_[i];
+    if (found == plan_.fifos.end()) {  // nothing is ever written
+      title(fmt::format("output {}: never written", port.name));
+      line("  assign {} = 1'b0;", signal_name(port, "tvalid"));
+      for (const dataflow::field& f : port.fields) {
+        line("  assign {} = {};", signal_name(port, f.signal), literal(f.width, 0));
+      }
+      continue;
+    }
+    const output_fifo& fifo = *found;
+    const unsigned pointer = bits_for(fifo.depth - 1);
+    const unsigned counter = pointer + 1;
+    const int stage = fifo.stage;
+    std::string pushes, data;
+    bool always = false;
+    for (const node_id id : fifo.writes) {
+      const node& n = g_.nodes[id];
+      const std::string predicate = operand(n.operands[0], stage);
+      always |= is_always(n.operands[0]);
+      pushes += (pushes.empty() ? "" : " | ") + predicate;
+      const bool last = id == fifo.writes.back();
+      data += last ? operand(n.operands[1], stage) : fmt::format("{} ? {} : ", predicate, operand(n.operands[1], stage));
+    }
+    line("  wire {}_push = {};", name,
+         always ? valid(stage) : fmt::format("{} & ({})", valid(stage), pushes));
+    const bool has_block = fifo.depth > 64;
+    line("  (* ram_style = \"{}\", no_rw_check *)", has_block ? "block" : "distributed");
+    line("  reg {}{}_fifo [0:{}];", range_of(port.width), name, fifo.depth - 1);
+    line("  reg [{}:0] {}_in, {}_out;", counter - 1, name, name);
+    line("  reg {}{}_word;", range_of(port.width), name);
+    line("  reg {}_word_there, {}_left{};", name, name, always ? "" : fmt::format(", {}_skipped", name));
+    line("  wire {}_load = ({}_in != {}_out) & ({} | ~{}_word_there);", name, name, name, signal_name(port, "tready"),
+         name);
+    line("  wire {}{}_data = {};", range_of(port.width), name, data);
+    line("  wire [{}:0] {}_credits_next = {}_credits - {{{}, valid[1]}} + {{{}, {}_left}}{};", counter - 1, name, name,
+         literal(counter - 1, 0), literal(counter - 1, 0), name,
+         always ? "" : fmt::format(" + {{{}, {}_skipped}}", literal(counter - 1, 0), name));
+    line("  always @(posedge clk) begin");
+    line("    if ({}_push) {}_fifo[{}_in[{}:0]] <= {}_data;", name, name, name, pointer - 1, name);
+    line("    if ({}_load) {}_word <= {}_fifo[{}_out[{}:0]];", name, name, name, name, pointer - 1);
+    line("    if ({}_push) {}_in <= {}_in + {};", name, name, name, literal(counter, 1));
+    line("    if ({}_load) {}_out <= {}_out + {};", name, name, name, literal(counter, 1));
+    line("    {}_word_there <= {}_load | ({}_word_there & ~{});", name, name, name, signal_name(port, "tready"));
+    line("    {}_left <= {}_load;", name, name);
+    if (!always) line("    {}_skipped <= {} & ~({});", name, valid(stage), pushes);
+    line("    {}_credits <= {}_credits_next;", name, name);
+    line("    {}_room <= {}_credits_next > {};", name, name, literal(counter, 1));
+    line("    if (rst) begin");
+    line("      {}_in <= {};", name, literal(counter, 0));
+    line("      {}_out <= {};", name, literal(counter, 0));
+    line("      {}_word_there <= 1'b0;", name);
+    line("      {}_left <= 1'b0;", name);
+    if (!always) line("      {}_skipped <= 1'b0;", name);
+    line("      {}_credits <= {};", name, literal(counter, fifo.depth));
+    line("      {}_room <= 1'b0;", name);
+    line("    end");
+    line("  end");
+    line("  assign {} = {}_word_there;", signal_name(port, "tvalid"), name);
+    for (const dataflow::field& f : port.fields) {
+      const std::string bits = f.width == port.width ? name + "_word"
+                               : f.width == 1        ? fmt::format("{}_word[{}]", name, f.offset)
+                                                     : fmt::format("{}_word[{}:{}]", name, f.offset + f.width - 1, f.offset);
+      line("  assign {} = {};", signal_name(port, f.signal), bits);
+    }
+  }
+}
+
+void writer::write_delay_pointers() {
+  std::map<int, bool> lengths;
+  for (const delay_line& l : plan_.lines) lengths[l.words()] = true;
+  if (lengths.empty()) return;
+  title("pointers of the delay lines: a word is read just before its place is written again");
+  for (const auto& [words, used] : lengths) {
+    const unsigned width = bits_for(words - 1);
+    line("  reg {}delay_{}_in, delay_{}_out;", range_of(width), words, words);
+  }
+  line("  always @(posedge clk) begin");
+  for (const auto& [words, used] : lengths) {
+    const unsigned width = bits_for(words - 1);
+    line("    delay_{}_in <= delay_{}_out;", words, words);
+    line("    delay_{}_out <= (delay_{}_out == {}) ? {} : delay_{}_out + {};", words, words, literal(width, words - 1),
+         literal(width, 0), words, literal(width, 1));
+  }
+  line("    if (rst) begin");
+  for (const auto& [words, used] : lengths) {
+    const unsigned width = bits_for(words - 1);
+    line("      delay_{}_in <= {};", words, literal(width, 0));
+    line("      delay_{}_out <= {};", words, literal(width, 1));
+  }
+  line("    end");
+  line("  end");
+}
+
+std::string writer::write() {
+  reserve_interface();
+  for (const delay_line& l : plan_.lines) {
+    taken_.insert(fmt::format("delay_{}_in", l.words()));
+    taken_.insert(fmt::format("delay_{}_out", l.words()));
+  }
+  choose_names();
+  choose_inlined();
+  nodes_at_.resize(s_.depth);
+  registers_at_.resize(s_.depth);
+  updates_at_.resize(s_.depth);
+  for (node_id id = 0; id < g_.nodes.size(); ++id) {
+    if (s_.stage[id] != settled) nodes_at_[s_.stage[id]].push_back(id);
+  }
+  for (register_id r = 0; r < g_.registers.size(); ++r) {
+    if (s_.register_stage[r] != settled) registers_at_[s_.register_stage[r]].push_back(r);
+    updates_at_[s_.register_update[r]].push_back(r);
+  }
+  write_heading();
+  write_interface();
+  write_control_declarations();
+  for (const output_fifo& f : plan_.fifos) {
+    const unsigned counter = bits_for(f.depth - 1) + 1;
+    line("  reg [{}:0] {}_credits;  // places of the FIFO that nothing in flight may need", counter - 1,
+         port_name_[f.port]);
+    line("  reg {}_room;", port_name_[f.port]);
+  }
+  write_inputs();
+  write_settled();
+  write_memory_declarations();
+  write_delay_pointers();
+  for (int stage = 0; stage < s_.depth; ++stage) write_stage(stage);
+  write_valids();
+  write_patient();
+  if (!plan_.fifos.empty()) title("outputs: a FIFO with room for all iterations in flight");
+  write_outputs();
+  line("\nendmodule\n");
+  line("`default_nettype wire");
+  return std::move(out_);
+}
+
+}  // namespace
+
+std::string emit_verilog(const graph& g, const schedule::delay_model& model, const schedule::result& s,
+                         const verilog_options& options) {
+  return writer(g, model, s, options).write();
+}
+
+}  // namespace epiline::emit

@@ -1,0 +1,71 @@
+#pragma once
+// What one operation costs on a target: nanoseconds, LUTs, clocks of a memory. Estimates for scheduling and reports.
+
+#include <string>
+#include <string_view>
+
+#include "dataflow/graph.hpp"
+
+namespace epiline::schedule {
+
+/// Where a memory or a table lives.
+enum class storage_kind {
+  logic,        // a table made of LUTs: its result is combinational
+  distributed,  // LUT RAM: written by the clock, read combinationally
+  block,        // block RAM: address and output both registered, the word is usable two stages after the address
+};
+
+[[nodiscard]] const char* name_of(storage_kind kind);
+
+/// Delays in nanoseconds, wires included; areas in LUT4 (a carry cell counts as the two LUT4 it occupies).
+struct delay_parameters {
+  double launch = 0;         // clock to the output of a flip-flop, and the wire to the first operation
+  double capture = 0;        // set-up time of a flip-flop
+  double lut_level = 0;      // one LUT and the wire after it
+  double carry_entry = 0;    // operand to carry
+  double carry_bit = 0;      // carry over one bit
+  double carry_exit = 0;     // carry to sum, and the wire after it
+  double multiplier = 0;     // one hardware multiplier and the wire after it; 0: there is none
+  unsigned multiplier_width = 0;
+  double distributed_read = 0;        // address to word for 16 words; every doubling costs half a LUT level
+  unsigned distributed_max_words = 0;  // 0: the target has no LUT RAM
+  double memory_setup = 0;   // set-up of a RAM's address, data and enable inputs
+  double issue = 0;          // from a read's predicate through the decision to issue to the clock enables it drives
+  unsigned block_bits = 0;   // of one block RAM
+  unsigned block_max_width = 0;
+};
+
+class delay_model {
+ public:
+  /// `target`: "ecp5", "hx8k" or "generic". Throws std::invalid_argument, naming the known ones, for anything else.
+  explicit delay_model(std::string_view target);
+
+  [[nodiscard]] const std::string& target() const { return target_; }
+  [[nodiscard]] const delay_parameters& parameters() const { return parameters_; }
+
+  /// Combinational delay from the operands of node `id` to its result.
+  [[nodiscard]] double delay(const dataflow::graph& g, dataflow::node_id id) const;
+  /// Stages from the one a node stands in to the one its result can be used in: 0, or 2 for a block RAM's word.
+  [[nodiscard]] int latency(const dataflow::graph& g, dataflow::node_id id) const;
+  /// What a path into operand `index` of node `id` costs beyond delay(): set-up of a RAM, gating of an enable.
+  [[nodiscard]] double entry(const dataflow::graph& g, dataflow::node_id id, std::size_t index) const;
+  /// Gating of a register's enable with its stage's valid bit.
+  [[nodiscard]] double enable_entry() const { return parameters_.lut_level; }
+  /// Estimated LUT4 of node `id`.
+  [[nodiscard]] double area(const dataflow::graph& g, dataflow::node_id id) const;
+
+  [[nodiscard]] storage_kind storage(const dataflow::memory& m) const;
+  [[nodiscard]] storage_kind storage(const dataflow::table& t) const;
+  /// Block RAMs that one copy of `words` words of `width` bits takes.
+  [[nodiscard]] unsigned blocks(std::uint64_t words, std::uint64_t width) const;
+
+ private:
+  std::string target_;
+  delay_parameters parameters_;
+};
+
+/// True when the operand or node is a wire only: no gate, no delay (slices, extensions, concatenations, inversions that
+/// the next LUT absorbs, shifts by a constant).
+[[nodiscard]] bool is_wire(const dataflow::graph& g, dataflow::node_id id);
+
+}  // namespace epiline::schedule
