@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "kernels/level_array.hpp"
+#include "window/reduce.hpp"
 
 namespace epiline::kernels {
 
@@ -32,7 +33,7 @@ class candidate_mask {
       const level_t last_level_used = levels_used - 1;
       const level_t last = last_column_level < last_level_used ? last_column_level : last_level_used;
       for (int d = 0; d < levels; ++d) {
-        const bool takes_part = pixel_in[lane] && level_t(d) <= last;
+        const bool takes_part = pixel_in[lane] && level_t(window::indices<levels>.of[d]) <= last;
         result.at[lane][d] = takes_part ? costs.at[lane][d] : cost_t(~cost_t(0));
       }
     }

@@ -39,18 +39,20 @@ class column_sum {
 #pragma HLS DEPENDENCE variable = sums_ type = inter distance = 8 true
     sums result;
     for (int lane = 0; lane < lanes; ++lane) {
+      const int beat = at.beat;
+      const bool lane_in = at.lane_in[lane];
       for (int d = 0; d < levels; ++d) result.at[lane][d] = 0;
       if (at.in_columns && !at.first_row) {
-        for (int d = 0; d < levels; ++d) result.at[lane][d] = sums_[at.beat][lane][d];
+        for (int d = 0; d < levels; ++d) result.at[lane][d] = sums_[beat][lane][d];
       }
       for (int d = 0; d < levels; ++d) {
         // One adder on the way from RAM to RAM; the net change is known long before.
         const ap_int<11> change = entering.at[lane][d] - leaving.at[lane][d];
         const sum_t sum = result.at[lane][d] + change;
-        result.at[lane][d] = at.lane_in[lane] ? sum : sum_t(0);
+        result.at[lane][d] = lane_in ? sum : sum_t(0);
       }
       if (at.in_columns) {
-        for (int d = 0; d < levels; ++d) sums_[at.beat][lane][d] = result.at[lane][d];
+        for (int d = 0; d < levels; ++d) sums_[beat][lane][d] = result.at[lane][d];
       }
     }
     return result;

@@ -46,13 +46,18 @@ class fuzzy_inference {
 #pragma HLS INLINE
     conclusion result;
     for (int set = 0; set < sets; ++set) result.set[set] = 0;
+#pragma clang loop unroll(full)
     for (int i = 0; i < labels; ++i) {
+#pragma clang loop unroll(full)
       for (int j = 0; j < labels; ++j) {
         const degree_t both = smaller(u.label[i], v.label[j]);
-        for (int k = 0; k < labels; ++k) {
-          degree_t& set = result.set[RuleBase::rules.set[i][j][k]];
-          const degree_t rule = smaller(both, w.label[k]);
-          set = set < rule ? rule : set;
+        for (int set = 0; set < sets; ++set) {
+          // max over k of min(both, w_k) = min(both, max over k of w_k): one minimum for all rules of a set.
+          degree_t any = 0;
+          for (int k = 0; k < labels; ++k) {
+            if (RuleBase::rules.set[i][j][k] == set) any = larger(any, w.label[k]);
+          }
+          result.set[set] = larger(result.set[set], smaller(both, any));
         }
       }
     }
@@ -60,6 +65,7 @@ class fuzzy_inference {
   }
 
  private:
+  static degree_t larger(degree_t a, degree_t b) { return a < b ? b : a; }
   static degree_t smaller(degree_t a, degree_t b) { return a < b ? a : b; }
 };
 

@@ -3,6 +3,7 @@
 
 #include "kernels/color_sad.hpp"
 #include "kernels/disparity.hpp"
+#include "window/reduce.hpp"
 
 namespace epiline::kernels {
 
@@ -33,24 +34,27 @@ class right_winner {
 
   right_beat step(const costs_t& costs) {
 #pragma HLS INLINE
-    for (int entry = 0; entry < lanes; ++entry) {
-      lowest_[entry] = ~cost_t(0);
-      disparity_[entry] = 0;
+    cost_t lowest[entries];
+    disparity_t disparity[entries];
+    for (int entry = 0; entry < entries; ++entry) {
+      lowest[entry] = entry < lanes ? cost_t(~cost_t(0)) : lowest_[entry];
+      disparity[entry] = entry < lanes ? disparity_t(0) : disparity_[entry];
     }
     // Entry e belongs to the right pixel e columns left of the newest lane, so lane l is its partner at level
     // e - (lanes - 1 - l).
     for (int lane = 0; lane < lanes; ++lane) {
+      const int first = lanes - 1 - lane;
       for (int d = 0; d < levels; ++d) {
-        const int entry = d + lanes - 1 - lane;
-        const bool better = costs.at[lane][d] < lowest_[entry];
-        lowest_[entry] = better ? costs.at[lane][d] : lowest_[entry];
-        disparity_[entry] = better ? disparity_t(d) : disparity_[entry];
+        const cost_t cost = costs.at[lane][d];
+        const bool better = cost < lowest[first + d];
+        lowest[first + d] = better ? cost : lowest[first + d];
+        disparity[first + d] = better ? disparity_t(window::indices<levels>.of[d]) : disparity[first + d];
       }
     }
     right_beat finished;
-    for (int lane = 0; lane < lanes; ++lane) finished.disparity[lane] = disparity_[entries - 1 - lane];
-    for (int entry = entries - 1; entry >= lanes; --entry) lowest_[entry] = lowest_[entry - lanes];
-    for (int entry = entries - 1; entry >= lanes; --entry) disparity_[entry] = disparity_[entry - lanes];
+    for (int lane = 0; lane < lanes; ++lane) finished.disparity[lane] = disparity[entries - 1 - lane];
+    for (int entry = lanes; entry < entries; ++entry) lowest_[entry] = lowest[entry - lanes];
+    for (int entry = lanes; entry < entries; ++entry) disparity_[entry] = disparity[entry - lanes];
     return finished;
   }
 

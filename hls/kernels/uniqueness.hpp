@@ -65,10 +65,11 @@ class uniqueness_check {
 
   static bool has_rival(const cost_t (&costs)[levels], disparity_t winner, cost_t threshold) {
     const ap_uint<8> last_neighbour = winner + 1;
+    const ap_uint<8> first_neighbour = winner == 0 ? ap_uint<8>(0) : ap_uint<8>(winner - 1);
     ap_uint<1> rival[levels];
     for (int d = 0; d < levels; ++d) {
-      const bool is_neighbour = ap_uint<8>(d + 1) >= winner && ap_uint<8>(d) <= last_neighbour;
-      rival[d] = costs[d] < threshold && !is_neighbour;
+      const ap_uint<8> level = window::indices<levels>.of[d];
+      rival[d] = costs[d] < threshold && (level < first_neighbour || level > last_neighbour);
     }
     return window::reduce(rival, [](ap_uint<1> a, ap_uint<1> b) -> ap_uint<1> { return a | b; }) != 0;
   }

@@ -6,32 +6,41 @@
 
 namespace epiline::window {
 
-/// Combines values[0 .. N-1] pairwise, neighbours first. `combine` must be associative; it need not be commutative.
+/// 0, 1, 2 ... N-1 as values of their own. Compared with a loop's counter they cost nothing in hardware, and natively
+/// they keep the lanes of a vector unit as narrow as the values they meet.
+template <int N>
+struct index_table {
+  unsigned char of[N];
+  constexpr index_table() : of{} {
+    static_assert(N <= 256);
+    for (int i = 0; i < N; ++i) of[i] = static_cast<unsigned char>(i);
+  }
+};
+template <int N>
+inline constexpr index_table<N> indices{};
+
+/// Combines values[0 .. N-1]. `combine` must be associative and commutative: the halves of the array meet, element by
+/// element, so every level of the tree is one loop over neighbours in memory.
 template <int N, class Value, class Combine>
 Value reduce(const Value (&values)[N], Combine combine) {
+#pragma HLS INLINE
   if constexpr (N == 1) {
     return values[0];
   } else {
-    Value half[(N + 1) / 2];
-    for (int i = 0; i < N / 2; ++i) half[i] = combine(values[2 * i], values[2 * i + 1]);
-    if constexpr (N % 2 != 0) half[N / 2] = values[N - 1];
-    return reduce(half, combine);
+    constexpr int half = 1 << (bits_for(N - 1) - 1);  // the largest power of two below N
+    Value reduced[half];
+    for (int i = 0; i < N - half; ++i) reduced[i] = combine(values[i], values[i + half]);
+    for (int i = N - half; i < half; ++i) reduced[i] = values[i];
+    return reduce(reduced, combine);
   }
 }
 
-/// Tie-break policies of `minimum`: whether the right one of two neighbours, whose index is the larger, replaces the
-/// left.
+/// Tie-break policies of `minimum`: which of the places of the smallest value wins.
 struct smallest_index_wins {
-  template <class Value>
-  static bool take_right(const Value& left, const Value& right) {
-    return right < left;
-  }
+  static constexpr int rank(int index, int /*count*/) { return index; }
 };
 struct largest_index_wins {
-  template <class Value>
-  static bool take_right(const Value& left, const Value& right) {
-    return !(left < right);
-  }
+  static constexpr int rank(int index, int count) { return count - 1 - index; }
 };
 
 template <class Value, class Index>
@@ -40,34 +49,21 @@ struct indexed {
   Index index;
 };
 
-/// The smallest of values[0 .. N-1] and where it stands. Values and indices are kept in arrays of their own, which is
-/// how both the hardware and a vector unit want them.
-template <class Tie, class Index, int N, class Value>
-indexed<Value, Index> minimum_of(const Value (&values)[N], const Index (&indices)[N]) {
-  if constexpr (N == 1) {
-    return {values[0], indices[0]};
-  } else {
-    Value half_values[(N + 1) / 2];
-    Index half_indices[(N + 1) / 2];
-    for (int i = 0; i < N / 2; ++i) {
-      const bool right = Tie::take_right(values[2 * i], values[2 * i + 1]);
-      half_values[i] = right ? values[2 * i + 1] : values[2 * i];
-      half_indices[i] = right ? indices[2 * i + 1] : indices[2 * i];
-    }
-    if constexpr (N % 2 != 0) {
-      half_values[N / 2] = values[N - 1];
-      half_indices[N / 2] = indices[N - 1];
-    }
-    return minimum_of<Tie, Index>(half_values, half_indices);
+/// The smallest of values[0 .. N-1] and where it stands. Value and rank of the place form one number, so a node of the
+/// tree is one comparison, ties included.
+template <class Tie, int N, int Bits>
+auto minimum(const ap_uint<Bits> (&values)[N]) {
+#pragma HLS INLINE
+  constexpr int index_bits = bits_for(N - 1);
+  using index_t = ap_uint<index_bits>;
+  using key_t = ap_uint<Bits + index_bits>;
+  key_t keys[N];
+  for (int i = 0; i < N; ++i) {
+    keys[i] = (key_t(values[i]) << index_bits) | key_t(Tie::rank(indices<N>.of[i], N));
   }
-}
-
-template <class Tie, int N, class Value>
-auto minimum(const Value (&values)[N]) {
-  using index_t = ap_uint<bits_for(N - 1)>;
-  index_t indices[N];
-  for (int i = 0; i < N; ++i) indices[i] = i;
-  return minimum_of<Tie, index_t>(values, indices);
+  const key_t smallest = reduce(keys, [](key_t a, key_t b) { return a < b ? a : b; });
+  const index_t rank = smallest;
+  return indexed<ap_uint<Bits>, index_t>{ap_uint<Bits>(smallest >> index_bits), index_t(Tie::rank(rank, N))};
 }
 
 }  // namespace epiline::window
