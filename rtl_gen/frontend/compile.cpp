@@ -1,0 +1,144 @@
+#include "frontend/compile.hpp"
+
+#include <fmt/format.h>
+#include <llvm/IRReader/IRReader.h>
+#include <llvm/Support/FileSystem.h>
+#include <llvm/Support/MemoryBuffer.h>
+#include <llvm/Support/Path.h>
+#include <llvm/Support/Program.h>
+#include <llvm/Support/SourceMgr.h>
+
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <set>
+
+#include "frontend/pragmas.hpp"
+#include "frontend/source.hpp"
+
+namespace epiline::frontend {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* wrapper_file = "<epiline-hls>";
+
+/// A folder of its own for the intermediate files, removed at the end.
+class scratch_folder {
+ public:
+  scratch_folder() {
+    llvm::SmallString<128> path;
+    if (llvm::sys::fs::createUniqueDirectory("epiline-hls", path))
+      throw refused("error: no temporary folder can be made: check that the folder named by TMPDIR (or /tmp) is writable");
+    path_ = std::string(path);
+  }
+  ~scratch_folder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  scratch_folder(const scratch_folder&) = delete;
+  scratch_folder& operator=(const scratch_folder&) = delete;
+  [[nodiscard]] std::string file(const char* name) const { return (path_ / name).string(); }
+
+ private:
+  fs::path path_;
+};
+
+std::string read_file(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write_file(const std::string& path, const std::string& text) {
+  std::ofstream out(path, std::ios::binary);
+  out << text;
+  if (!out.flush()) throw refused(fmt::format("error: cannot write {}: is the disk full?", path));
+}
+
+/// Runs clang; its messages go to `messages`. Returns whether it succeeded.
+bool run_clang(const std::vector<std::string>& arguments, const std::string& messages) {
+  const auto program = llvm::sys::findProgramByName(EPILINE_CLANG);
+  if (!program)
+    throw refused(fmt::format("error: {} is not installed: apt-get install clang-19", EPILINE_CLANG));
+  std::vector<llvm::StringRef> words{*program};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  const std::optional<llvm::StringRef> redirects[] = {llvm::StringRef(), llvm::StringRef(messages), llvm::StringRef(messages)};
+  return llvm::sys::ExecuteAndWait(*program, words, std::nullopt, redirects) == 0;
+}
+
+/// The files named by line markers, in order of appearance, without clang's pseudo files.
+std::vector<std::string> files_of(const std::string& preprocessed) {
+  std::vector<std::string> files;
+  std::set<std::string> seen;
+  llvm::StringRef rest = preprocessed;
+  while (!rest.empty()) {
+    const auto [line, after] = rest.split('\n');
+    rest = after;
+    if (!line.starts_with("# ")) continue;
+    const auto [before, quoted] = line.split('"');
+    const std::string file = quoted.split('"').first.str();
+    if (!file.empty() && file.front() != '<' && fs::exists(file) && seen.insert(file).second) files.push_back(file);
+  }
+  return files;
+}
+
+std::string wrapper_source(const source_options& options) {
+  return fmt::format(
+      "#include \"{}\"\n#include <epiline/call_top.hpp>\n#line 1 \"{}\"\n"
+      "extern \"C\" void {}() {{ epiline::detail::call_for_ever<&::{}>(&::{}); }}\n",
+      fs::absolute(options.source).lexically_normal().string(), wrapper_file, process_name, options.top, options.top);
+}
+
+[[noreturn]] void refuse_compilation(const source_options& options, const std::string& messages) {
+  if (messages.find(std::string(wrapper_file) + ":1:") == std::string::npos)
+    throw refused(messages + fmt::format("error: {} does not compile (clang's messages above)", options.source));
+  if (messages.find("no member named") != std::string::npos || messages.find("undeclared") != std::string::npos)
+    throw refused(fmt::format("{}: error: there is no function '{}' in this file: name the function to synthesize with --top",
+                              options.source, options.top));
+  throw refused(messages + fmt::format("{}: error: '{}' cannot be a top: a top is one function (not overloaded, not a "
+                                       "template) that returns void and takes hls::stream references and scalars",
+                                       options.source, options.top));
+}
+
+}  // namespace
+
+compiled_source compile(const source_options& options, llvm::LLVMContext& context) {
+  if (!fs::is_regular_file(options.source))
+    throw refused(fmt::format("error: {}: no such file", options.source));
+  const scratch_folder scratch;
+  const std::string wrapper = scratch.file("wrapper.cpp");
+  const std::string preprocessed = scratch.file("preprocessed.ii");
+  const std::string bitcode = scratch.file("module.bc");
+  const std::string messages = scratch.file("messages.txt");
+  write_file(wrapper, wrapper_source(options));
+
+  std::vector<std::string> common = {"-std=c++17", "-D__SYNTHESIS__", "-fno-exceptions", "-Wno-unknown-pragmas",
+                                     "-Wno-undefined-var-template", "-Wno-invalid-constexpr", "-fno-threadsafe-statics"};
+  std::vector<std::string> preprocess = common;
+  preprocess.insert(preprocess.end(), {"-E", wrapper, "-o", preprocessed, "-I", EPILINE_TYPES_DIRECTORY, "-I",
+                                       EPILINE_FRONTEND_INCLUDES});
+  for (const std::string& path : options.includes) preprocess.insert(preprocess.end(), {"-I", path});
+  for (const std::string& definition : options.definitions) preprocess.push_back("-D" + definition);
+  if (!run_clang(preprocess, messages)) refuse_compilation(options, read_file(messages));
+
+  compiled_source result;
+  pragma_rewrite rewritten = rewrite_pragmas(read_file(preprocessed));
+  result.notes = std::move(rewritten.notes);
+  result.dependencies = files_of(rewritten.source);
+  std::erase(result.dependencies, wrapper);
+  write_file(preprocessed, rewritten.source);
+
+  std::vector<std::string> translate = common;
+  // -O1 without passes: optimisable IR, untouched; our own pipeline decides what happens to it.
+  translate.insert(translate.end(), {"-O1", "-Xclang", "-disable-llvm-passes", "-g", "-fno-discard-value-names", "-w",
+                                     "-fno-vectorize", "-emit-llvm", "-c", preprocessed, "-o", bitcode});
+  if (!run_clang(translate, messages)) refuse_compilation(options, read_file(messages));
+
+  llvm::SMDiagnostic diagnostic;
+  result.module = llvm::parseIRFile(bitcode, diagnostic, context);
+  if (!result.module) throw refused("error: clang's output cannot be read: " + diagnostic.getMessage().str());
+  return result;
+}
+
+}  // namespace epiline::frontend

@@ -1,0 +1,32 @@
+#pragma once
+// Runs clang on the user's source: C++ in, LLVM IR of "the top, called for ever" out.
+
+#include <llvm/IR/LLVMContext.h>
+#include <llvm/IR/Module.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace epiline::frontend {
+
+/// The function of the IR that calls the top for ever.
+inline constexpr const char* process_name = "__epiline_process";
+
+struct source_options {
+  std::string source;                    // the C++ file that defines the top
+  std::string top;                       // its name
+  std::vector<std::string> includes;     // -I
+  std::vector<std::string> definitions;  // -D
+};
+
+struct compiled_source {
+  std::unique_ptr<llvm::Module> module;
+  std::vector<std::string> notes;         // about pragmas, one line each
+  std::vector<std::string> dependencies;  // every file read
+};
+
+/// Throws `refused` with clang's own message when the source does not compile, and when there is no such file or top.
+[[nodiscard]] compiled_source compile(const source_options& options, llvm::LLVMContext& context);
+
+}  // namespace epiline::frontend

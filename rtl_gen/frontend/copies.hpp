@@ -1,0 +1,14 @@
+#pragma once
+
+#include <llvm/IR/Function.h>
+
+namespace epiline::frontend {
+
+/// What to do with a copy whose type is not known: SROA understands some of them.
+enum class unknown_types { kept, refused };
+
+/// Replaces memcpy, memmove and memset of aggregates by loads and stores of their scalars, which the later steps can
+/// follow one by one. Refuses copies too large to happen in one clock.
+void expand_copies(llvm::Function& function, unknown_types otherwise);
+
+}  // namespace epiline::frontend

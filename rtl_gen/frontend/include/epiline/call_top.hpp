@@ -1,0 +1,91 @@
+#pragma once
+// Calls a top function for ever, as the generated hardware does. Compiled together with the user's source in the
+// synthesis build only; the frontend gives the __epiline_* functions their meaning.
+//
+// The parameters become ports by their types: a stream by reference is a port of its own; scalars by value (or const
+// reference) are the fields of one argument token a call; scalars by reference are output streams of one token a call.
+
+#include <hls_stream.h>
+
+extern "C" {
+void __epiline_argument(int index, void* value, const void* type) noexcept;
+void __epiline_result(int index, const void* value, const void* type) noexcept;
+void __epiline_port(int index, const void* stream) noexcept;
+void __epiline_unsupported_parameter(int index) noexcept;
+}
+
+namespace epiline::detail {
+
+template <class T>
+struct parameter_type_tag {
+  static T object;
+};
+
+template <int Index, class Stream>
+struct stream_port {
+  static Stream object;
+};
+
+template <class T, int Index>
+struct parameter {  // by value
+  T value;
+  parameter() { __epiline_argument(Index, &value, &parameter_type_tag<T>::object); }
+  T& pass() { return value; }
+  void finish() const {}
+};
+
+template <class T, int Index>
+struct parameter<const T&, Index> : parameter<T, Index> {};
+
+template <class T, int Index>
+struct parameter<T&, Index> {  // a result
+  T value;
+  parameter() {}
+  T& pass() { return value; }
+  void finish() const { __epiline_result(Index, &value, &parameter_type_tag<T>::object); }
+};
+
+template <class Stream, int Index>
+struct stream_parameter {
+  stream_parameter() { __epiline_port(Index, &stream_port<Index, Stream>::object); }
+  Stream& pass() const { return stream_port<Index, Stream>::object; }
+  void finish() const {}
+};
+
+template <class T, int Depth, int Index>
+struct parameter<hls::stream<T, Depth>&, Index> : stream_parameter<hls::stream<T, Depth>, Index> {};
+
+template <class T, int Index>
+struct parameter<T*, Index> {
+  parameter() { __epiline_unsupported_parameter(Index); }
+  T* pass() const { return nullptr; }
+  void finish() const {}
+};
+
+template <int... Index>
+struct indices {};
+
+template <auto Top, class... Parameters>
+void pass_parameters(Parameters&&... parameters) {
+  Top(parameters.pass()...);
+  (parameters.finish(), ...);
+}
+
+template <auto Top, class... P, int... Index>
+void call_once(void (*)(P...), indices<Index...>) {
+  pass_parameters<Top>(parameter<P, Index>{}...);
+}
+
+template <int Count, int... Index>
+struct make_indices : make_indices<Count - 1, Count - 1, Index...> {};
+template <int... Index>
+struct make_indices<0, Index...> {
+  using type = indices<Index...>;
+};
+
+template <auto Top, class... P>
+void call_for_ever(void (*top)(P...)) {
+  for (;;) call_once<Top>(top, typename make_indices<sizeof...(P)>::type{});
+}
+
+}  // namespace epiline::detail

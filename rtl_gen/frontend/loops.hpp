@@ -1,0 +1,20 @@
+#pragma once
+
+#include <llvm/IR/Function.h>
+#include <llvm/IR/PassManager.h>
+
+namespace epiline::frontend {
+
+/// Takes the PIPELINE and UNROLL pragma calls out of the function and unrolls loops:
+///   - a loop that accesses streams, has a run-time trip count or is marked PIPELINE stays a loop;
+///   - a constant loop inside such a loop, or marked UNROLL, is unrolled fully;
+///   - a constant loop outside of all others is unrolled when it is short.
+/// Refuses endless loops without stream access and UNROLL of loops whose trip count is not known.
+/// Returns the largest initiation interval that a PIPELINE pragma allows (1 without).
+[[nodiscard]] unsigned unroll_loops(llvm::Function& function, llvm::FunctionAnalysisManager& analyses);
+
+/// Turns `while` loops into guarded do-while form where that duplicates no access, so that nested loops flow into each
+/// other without an idle clock.
+void rotate_loops(llvm::Function& function, llvm::FunctionAnalysisManager& analyses);
+
+}  // namespace epiline::frontend

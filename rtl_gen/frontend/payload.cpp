@@ -1,0 +1,142 @@
+#include "frontend/payload.hpp"
+
+#include <array>
+
+namespace epiline::frontend {
+
+namespace {
+
+constexpr std::array<const char*, 8> axis_signals = {"tdata", "tdata", "tkeep", "tstrb", "tuser", "tlast", "tid", "tdest"};
+
+/// The number k of a tag member [0 x [k x iN]]; 0 when it is none.
+unsigned tag_of(llvm::Type* type, unsigned element_bits) {
+  auto* outer = llvm::dyn_cast<llvm::ArrayType>(type);
+  if (outer == nullptr || outer->getNumElements() != 0) return 0;
+  auto* inner = llvm::dyn_cast<llvm::ArrayType>(outer->getElementType());
+  if (inner == nullptr || !inner->getElementType()->isIntegerTy(element_bits)) return 0;
+  return static_cast<unsigned>(inner->getNumElements());
+}
+
+struct collector {
+  const source_place& place;
+  std::vector<leaf> leaves;
+  std::vector<unsigned> path;
+  unsigned axis_field = 0;
+
+  void visit(llvm::Type* type) {
+    unsigned width = 0;
+    bool is_signed = false;
+    if (is_arbitrary_precision(type, width, is_signed)) {
+      path.push_back(0);
+      add(llvm::cast<llvm::IntegerType>(llvm::cast<llvm::StructType>(type)->getElementType(0)), width, is_signed);
+      path.pop_back();
+    } else if (auto* integer = llvm::dyn_cast<llvm::IntegerType>(type)) {
+      add(integer, integer->getBitWidth(), false);
+    } else if (auto* array = llvm::dyn_cast<llvm::ArrayType>(type)) {
+      for (unsigned i = 0; i < array->getNumElements(); ++i) visit_member(array->getElementType(), i);
+    } else if (auto* structure = llvm::dyn_cast<llvm::StructType>(type)) {
+      const unsigned outside = axis_field;
+      for (unsigned i = 0; i < structure->getNumElements(); ++i) {
+        llvm::Type* const member = structure->getElementType(i);
+        if (const unsigned tag = tag_of(member, 32); tag != 0) axis_field = tag;
+        else visit_member(member, i);
+      }
+      axis_field = outside;
+    } else if (type->isFloatingPointTy()) {
+      refuse(place, "floating point in a stream or parameter: use ap_int/ap_uint (fixed point) instead");
+    } else {
+      refuse(place, "a stream or parameter of pointers or other types that are not built of integers: pass ap_int, "
+                    "ap_uint, C integers or structs of them");
+    }
+  }
+
+  void visit_member(llvm::Type* type, unsigned index) {
+    path.push_back(index);
+    visit(type);
+    path.pop_back();
+  }
+
+  void add(llvm::IntegerType* storage, unsigned width, bool is_signed) {
+    leaves.push_back({path, storage, width, is_signed, axis_field});
+  }
+};
+
+llvm::Value* address_of(llvm::IRBuilderBase& builder, llvm::Value* pointer, llvm::Type* type, const leaf& member) {
+  std::vector<llvm::Value*> indices{builder.getInt32(0)};
+  for (const unsigned index : member.path) indices.push_back(builder.getInt32(index));
+  return builder.CreateInBoundsGEP(type, pointer, indices);
+}
+
+}  // namespace
+
+bool is_arbitrary_precision(llvm::Type* type, unsigned& width, bool& is_signed) {
+  auto* structure = llvm::dyn_cast<llvm::StructType>(type);
+  if (structure == nullptr || structure->getNumElements() < 2 || !structure->getElementType(0)->isIntegerTy()) return false;
+  for (unsigned i = 1; i < structure->getNumElements(); ++i) {
+    if (const unsigned w = tag_of(structure->getElementType(i), 8); w != 0) {
+      width = w;
+      is_signed = false;
+      return true;
+    }
+    if (const unsigned w = tag_of(structure->getElementType(i), 16); w != 0) {
+      width = w;
+      is_signed = true;
+      return true;
+    }
+  }
+  return false;
+}
+
+std::vector<leaf> leaves_of(llvm::Type* type, const source_place& place) {
+  collector all{place, {}, {}, 0};
+  all.visit(type);
+  return all.leaves;
+}
+
+std::vector<dataflow::field> fields_of(const std::vector<leaf>& leaves) {
+  std::vector<dataflow::field> fields;
+  unsigned offset = 0;
+  for (const leaf& member : leaves) {
+    const std::string signal = axis_signals.at(member.axis_field);
+    if (fields.empty() || fields.back().signal != signal)
+      fields.push_back({signal.substr(1), signal, 0, offset});
+    fields.back().width += member.width;
+    offset += member.width;
+  }
+  return fields;
+}
+
+unsigned width_of(const std::vector<leaf>& leaves) {
+  unsigned width = 0;
+  for (const leaf& member : leaves) width += member.width;
+  return width;
+}
+
+void unpack_token(llvm::IRBuilderBase& builder, llvm::Value* token, llvm::Value* pointer, llvm::Type* type,
+                  const std::vector<leaf>& leaves) {
+  unsigned offset = 0;
+  for (const leaf& member : leaves) {
+    llvm::Value* bits = offset == 0 ? token : builder.CreateLShr(token, offset);
+    bits = builder.CreateTrunc(bits, builder.getIntNTy(member.width));
+    bits = member.is_signed ? builder.CreateSExt(bits, member.storage) : builder.CreateZExt(bits, member.storage);
+    builder.CreateStore(bits, address_of(builder, pointer, type, member));
+    offset += member.width;
+  }
+}
+
+llvm::Value* pack_token(llvm::IRBuilderBase& builder, llvm::Value* pointer, llvm::Type* type,
+                        const std::vector<leaf>& leaves) {
+  llvm::Type* const token_type = builder.getIntNTy(width_of(leaves));
+  llvm::Value* token = llvm::ConstantInt::get(token_type, 0);
+  unsigned offset = 0;
+  for (const leaf& member : leaves) {
+    llvm::Value* bits = builder.CreateLoad(member.storage, address_of(builder, pointer, type, member));
+    bits = builder.CreateZExt(builder.CreateTrunc(bits, builder.getIntNTy(member.width)), token_type);
+    if (offset != 0) bits = builder.CreateShl(bits, offset);
+    token = offset == 0 ? bits : builder.CreateOr(token, bits);
+    offset += member.width;
+  }
+  return token;
+}
+
+}  // namespace epiline::frontend

@@ -1,0 +1,42 @@
+#pragma once
+// Where things come from in the user's source, and the one error every part of the frontend reports with.
+
+#include <llvm/IR/DebugInfoMetadata.h>
+#include <llvm/IR/DebugLoc.h>
+#include <llvm/IR/Function.h>
+#include <llvm/IR/Instruction.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "dataflow/graph.hpp"
+
+namespace epiline::frontend {
+
+/// The source uses something the flow does not support, or is wrong. what() is "FILE:LINE: error: TEXT" on one line;
+/// what clang itself printed is passed on unchanged.
+class refused : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A place in the user's code: not in the type headers, which are inlined everywhere.
+struct source_place {
+  std::string file;
+  unsigned line = 0;
+};
+
+[[nodiscard]] source_place place_of(const llvm::DebugLoc& location);
+/// The instruction's own place or, when optimisation lost it, that of the nearest instruction before it.
+[[nodiscard]] source_place place_of(const llvm::Instruction& instruction);
+[[nodiscard]] source_place place_of(const llvm::Function& function);
+[[nodiscard]] source_place place_of(const llvm::DIVariable& variable);
+
+/// Throws `refused` at a place: what was found there, and what to do instead.
+[[noreturn]] void refuse(const source_place& place, const std::string& what);
+
+/// The function's or variable's name as the user wrote it.
+[[nodiscard]] std::string readable_name(const llvm::Function& function);
+
+}  // namespace epiline::frontend
