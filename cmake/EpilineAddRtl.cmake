@@ -139,8 +139,8 @@ function(epiline_add_netlist_model target)
   set(netlist ${folder}/${arg_TOP}_netlist.v)
   add_custom_command(
     OUTPUT ${netlist} ${folder}/resources.json
-    COMMAND ${root}/scripts/synthesize.sh ${arg_VERILOG} ${arg_TOP} -o ${folder} --report ${arg_REPORT}
-    DEPENDS ${arg_VERILOG} ${arg_REPORT} ${arg_DEPENDS} ${root}/scripts/synthesize.sh
+    COMMAND ${root}/scripts/synthesize.sh ${arg_VERILOG} ${arg_TOP} -o ${folder}
+    DEPENDS ${arg_VERILOG} ${arg_DEPENDS} ${root}/scripts/synthesize.sh
             ${root}/scripts/netlist_resources.py
     COMMENT "Synthesizing ${arg_TOP} of ${target}"
     VERBATIM)

@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
 """Counts what a netlist takes, from the files scripts/synthesize.sh had Yosys write.
 
-netlist_resources.py FOLDER TOP [REPORT.json]
+netlist_resources.py FOLDER TOP VERILOG
 
-Writes FOLDER/resources.json and prints it as one line. Ends with exit code 1 when a memory that REPORT.json names did
-not become RAM.
+Writes FOLDER/resources.json and prints it as one line. Ends with exit code 1 when an array did not become RAM.
 """
 
 import json
@@ -23,22 +22,24 @@ def memories_in(file):
     return set(re.findall(r'parameter \\MEMID "\\\\?([^"]+)"', file.read_text(encoding="utf-8")))
 
 
-def memories_of(report):
-    """Names of the RTL arrays of a report that are to be RAM."""
-    content = json.loads(report.read_text(encoding="utf-8"))
-    return {memory["rtl"] for memory in content.get("memories", []) if memory.get("storage") in ("block", "distributed")}
+def arrays_for_ram(verilog):
+    """Names of the arrays whose ram_style asks for a RAM, and of those that are to be registers."""
+    styles = re.findall(r'ram_style = "(\w+)"[^\n]*\*\)\s*reg[^;\n]*?(\w+) *\[0:', verilog.read_text(encoding="utf-8"))
+    return ({name for style, name in styles if style in ("block", "distributed")},
+            {name for style, name in styles if style == "registers"})
 
 
 def main():
-    if len(sys.argv) not in (3, 4):
+    if len(sys.argv) != 4:
         sys.exit(__doc__.split("\n\n")[1])
     folder, top = pathlib.Path(sys.argv[1]), sys.argv[2]
     statistics = json.loads((folder / "statistics.json").read_text(encoding="utf-8"))
     cells = statistics["modules"]["\\" + top]["num_cells_by_type"]
     found, lost = memories_in(folder / "memories.txt"), memories_in(folder / "lost_memories.txt")
-    wanted = memories_of(pathlib.Path(sys.argv[3])) if len(sys.argv) == 4 else set()
+    for_ram, for_registers = arrays_for_ram(pathlib.Path(sys.argv[3]))
     # An array Yosys never saw as a memory was taken apart while it read the Verilog.
-    lost |= wanted - found
+    lost |= for_ram - found
+    lost -= for_registers
     resources = {
         "top": top,
         "lut4": sum(count * cells.get(cell, 0) for cell, count in LUTS.items()),

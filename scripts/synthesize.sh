@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # Yosys: synthesizes generated Verilog for ECP5 and counts what it takes.
 #
-#   scripts/synthesize.sh VERILOG TOP -o FOLDER [--report REPORT.json]
+#   scripts/synthesize.sh VERILOG TOP -o FOLDER
 #
 # Writes FOLDER/TOP.json (netlist for nextpnr), FOLDER/TOP_netlist.v (the same for simulation, with the cells of
 # tb/cosim/ecp5_cells.v), FOLDER/resources.json and FOLDER/yosys.log. Fails when Yosys finds a problem (several drivers,
-# a combinational loop, an undriven wire, a latch) or when a memory of the report did not become RAM. REPORT.json is
-# epiline-hls's; default: report.json beside VERILOG, if it is there.
+# a combinational loop, an undriven wire, a latch) or when an array did not become RAM, unless its ram_style in the
+# Verilog is "registers".
 #
 # Environment: YOSYS = the program to run (default: yosys), YOSYS_OPTIONS = further options of synth_ecp5.
 # shellcheck source=scripts/common.sh
@@ -14,16 +14,16 @@ caller=$PWD
 source "$(dirname "$0")/common.sh"
 
 positional=()
-folder='' report=''
+folder=''
 while [ $# -gt 0 ]; do
   case $1 in
     -h | --help)
       usage
       exit 0
       ;;
-    -o | --report)
+    -o)
       [ $# -ge 2 ] || fail "$1 needs a value"
-      if [ "$1" = -o ]; then folder=$2; else report=$2; fi
+      folder=$2
       shift
       ;;
     -*) fail "unknown argument '$1' (see --help)" ;;
@@ -33,19 +33,13 @@ while [ $# -gt 0 ]; do
 done
 if [ ${#positional[@]} -eq 3 ] && [ -z "$folder" ]; then folder=${positional[2]}; fi
 [ ${#positional[@]} -ge 2 ] && [ ${#positional[@]} -le 3 ] && [ -n "$folder" ] ||
-  fail "usage: synthesize.sh VERILOG TOP -o FOLDER [--report REPORT.json]"
+  fail "usage: synthesize.sh VERILOG TOP -o FOLDER"
 
 # Names are relative to where the caller stands.
 from_caller() { case $1 in /*) echo "$1" ;; *) echo "$caller/$1" ;; esac; }
 verilog=$(from_caller "${positional[0]}") top=${positional[1]} folder=$(from_caller "$folder")
 [ -r "$verilog" ] || fail "'$verilog' is not a readable file"
 [[ $top =~ ^[A-Za-z_][A-Za-z0-9_]*$ ]] || fail "'$top' is not the name of a module"
-if [ -n "$report" ]; then
-  report=$(from_caller "$report")
-  [ -r "$report" ] || fail "'$report' is not a readable file"
-elif [ -r "$(dirname "$verilog")/report.json" ]; then
-  report=$(dirname "$verilog")/report.json
-fi
 yosys=${YOSYS:-yosys}
 need "$yosys" yosys
 need python3 python3
@@ -53,6 +47,7 @@ mkdir -p "$folder" || fail "cannot write to '$folder'"
 rm -f "$folder/resources.json" "$folder/$top.json" "$folder/${top}_netlist.v"
 
 # The steps of synth_ecp5, stopped where the memories are known and again where those that did not fit a RAM are left.
+# Loops are visible to Yosys only before it maps to cells; what else that early check says is not yet final.
 # "$mem_v2" cells carry the name of the Verilog array in MEMID.
 # shellcheck disable=SC2206  # the variable is a list of words
 options=(${YOSYS_OPTIONS:-})
@@ -60,7 +55,7 @@ options=(${YOSYS_OPTIONS:-})
 if ! (cd "$folder" && "$yosys" -Q -T -q -l yosys.log -p "
   read_verilog \"$verilog\"
   synth_ecp5 -top $top ${options[*]} -run begin:map_ram
-  check -assert
+  tee -o early_check.txt check
   select -assert-none t:\$_DLATCH* t:\$dlatch %u
   tee -o memories.txt dump t:\$mem_v2
   synth_ecp5 -top $top ${options[*]} -run map_ram:map_ffram
@@ -75,4 +70,7 @@ if ! (cd "$folder" && "$yosys" -Q -T -q -l yosys.log -p "
   grep -h 'ERROR' "$folder/yosys.out" "$folder/yosys.log" | sort -u | head -5 >&2 || true
   fail "Yosys failed; its log is $folder/yosys.log"
 fi
-python3 scripts/netlist_resources.py "$folder" "$top" ${report:+"$report"}
+if loop=$(grep -m1 -A3 'found logic loop' "$folder/early_check.txt"); then
+  fail "the Verilog has a combinational loop: $loop"
+fi
+python3 scripts/netlist_resources.py "$folder" "$top" "$verilog"

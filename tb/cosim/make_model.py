@@ -132,13 +132,13 @@ def main():
     except (OSError, ValueError) as error:
         fail(f"{report}: {error}")
     try:
-        module = content["top"]
+        module = content["interface"]["module"]
         ports = content["interface"]["ports"]
         described, reset = [], []
         cases = {key: [] for key in ("set_token", "set_valid", "ready", "get_token", "valid", "set_ready")}
         for index, port in enumerate(ports):
             is_input = {"input": True, "output": False}[port["direction"]]
-            fields = ", ".join(f'{{"{f["name"]}", {f["width"]}, {f["offset"]}}}' for f in port["fields"])
+            fields = ", ".join(f'{{"{f["signal"]}", {f["width"]}, {f["offset"]}}}' for f in port["fields"])
             described.append(
                 f'        {{"{port["name"]}", port_kind::{port["kind"]}, {"true" if is_input else "false"}, '
                 f'{port["width"]}, {{{fields}}}}},'

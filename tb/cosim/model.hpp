@@ -18,7 +18,7 @@ enum class port_kind : std::uint8_t {
 
 /// One signal of a port's payload.
 struct model_field {
-  std::string name;     // of the C++ source: "tdata", "tlast", or a scalar's name
+  std::string name;     // "tdata", "tlast", ...; of a call port the scalar's name
   unsigned width = 1;   // bits
   unsigned offset = 0;  // its lowest bit in the token
 };
