@@ -58,8 +58,7 @@ class row_sum {
  private:
   /// How many columns the window's right end lies behind the lane, so that results come out in whole beats.
   static constexpr int skew = delay_beats * lanes - Config::window_radius;
-  static constexpr int history = skew + window_columns;
-  static_assert(history >= lanes);
+  static constexpr int history = window::larger(skew + window_columns, lanes);
   using change_t = ap_int<16>;  // modulo 2^16, as the sum
 
   /// Column i of the newest beat; negative: before it.
