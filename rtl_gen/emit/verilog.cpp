@@ -142,6 +142,7 @@ class writer {
   void write_inputs();
   void write_settled();
   void write_memory_declarations();
+  void write_contents(const std::string& name, const std::vector<llvm::APInt>& values);
   void write_stage(int stage);
   void write_copies(int stage);
   void write_logic(int stage);
@@ -636,26 +637,46 @@ void writer::write_memory_declarations() {
     const memory_plan& p = plan_.memories[m];
     line("  (* {}{} *)", style(p.storage), p.never_meets ? ", no_rw_check" : "");
     line("  reg {}{} [0:{}];{}", range_of(memory.width), memory_name_[m], memory.words - 1, comment(memory.where));
-    if (memory.initial.empty()) continue;
-    line("  initial begin");
-    for (std::size_t i = 0; i < memory.initial.size(); ++i) {
-      line("    {}[{}] = {};", memory_name_[m], i, literal(memory.initial[i]));
-    }
-    line("  end");
+    if (!memory.initial.empty()) write_contents(memory_name_[m], memory.initial);
   }
   if (!g_.tables.empty()) title("constant tables");
   for (std::size_t t = 0; t < g_.tables.size(); ++t) {
     const dataflow::table& table = g_.tables[t];
-    const std::uint64_t words = std::bit_ceil(table.values.size());
+    std::vector<llvm::APInt> values = table.values;
+    values.resize(std::bit_ceil(values.size()), llvm::APInt(table.width, 0));
     if (model_.storage(table) == storage_kind::block) line("  (* rom_style = \"block\" *)");
-    line("  reg {}{} [0:{}];{}", range_of(table.width), table_name_[t], words - 1, comment(table.where));
-    line("  initial begin");
-    for (std::uint64_t i = 0; i < words; ++i) {
-      line("    {}[{}] = {};", table_name_[t], i,
-           i < table.values.size() ? literal(table.values[i]) : literal(table.width, 0));
-    }
-    line("  end");
+    line("  reg {}{} [0:{}];{}", range_of(table.width), table_name_[t], values.size() - 1, comment(table.where));
+    write_contents(table_name_[t], values);
   }
+}
+
+void writer::write_contents(const std::string& name, const std::vector<llvm::APInt>& values) {
+  // Runs of one value are loops: a wide memory of zeros, word by word, would take Verilator's compiler minutes.
+  constexpr std::size_t shortest_loop = 5;
+  const auto run_end = [&](std::size_t begin) {
+    std::size_t end = begin + 1;
+    while (end < values.size() && values[end] == values[begin]) ++end;
+    return end;
+  };
+  bool loops = false;
+  for (std::size_t i = 0; i < values.size(); i = run_end(i)) loops |= run_end(i) - i >= shortest_loop;
+  if (loops) {
+    line("  initial begin : {}", fresh(name + "_contents"));
+    line("    integer i;");
+  } else {
+    line("  initial begin");
+  }
+  for (std::size_t i = 0; i < values.size();) {
+    const std::size_t end = run_end(i);
+    const std::string value = literal(values[i]);
+    if (end - i >= shortest_loop) {
+      line("    for (i = {}; i < {}; i = i + 1) {}[i] = {};", i, end, name, value);
+    } else {
+      for (std::size_t word = i; word < end; ++word) line("    {}[{}] = {};", name, word, value);
+    }
+    i = end;
+  }
+  line("  end");
 }
 
 void writer::write_copies(int stage) {
