@@ -1,0 +1,91 @@
+#include "passes/merge_registers.hpp"
+
+#include <map>
+#include <vector>
+
+#include "passes/builder.hpp"
+
+namespace epiline::passes {
+
+namespace {
+
+/// Rounds after which the search gives up. Each one splits at least one class; real designs need a handful.
+constexpr unsigned max_rounds = 50;
+
+/// Numbers expressions so that two nodes have one number if they are equal whenever registers of one class are equal.
+class numbering {
+ public:
+  explicit numbering(const graph& g) : g_(g), class_of_(g.registers.size()), number_(g.nodes.size()) {
+    std::map<std::vector<std::uint64_t>, std::uint32_t>
+        classes;  // all registers of one initial value start in one class
+    for (register_id r = 0; r < g.registers.size(); ++r) {
+      const auto& state = g.registers[r];
+      std::vector<std::uint64_t> key = {state.width, state.patient};
+      if (state.initial)
+        key.insert(key.end(), state.initial->getRawData(), state.initial->getRawData() + state.initial->getNumWords());
+      else
+        key.resize(key.size() + (state.width + 63) / 64, 0);
+      class_of_[r] = classes.try_emplace(std::move(key), static_cast<std::uint32_t>(classes.size())).first->second;
+    }
+    count_ = static_cast<std::uint32_t>(classes.size());
+  }
+
+  /// Splits classes until next values and enables agree within each. False: gave up.
+  bool refine() {
+    for (unsigned round = 0; round < max_rounds; ++round) {
+      number_nodes();
+      std::map<std::array<std::uint32_t, 3>, std::uint32_t> classes;
+      for (register_id r = 0; r < class_of_.size(); ++r) {
+        const std::array<std::uint32_t, 3> key = {class_of_[r], number_[g_.registers[r].next],
+                                                  number_[g_.registers[r].enable]};
+        class_of_[r] = classes.try_emplace(key, static_cast<std::uint32_t>(classes.size())).first->second;
+      }
+      if (classes.size() == count_) return true;
+      count_ = static_cast<std::uint32_t>(classes.size());
+    }
+    return false;
+  }
+
+  const std::vector<std::uint32_t>& class_of() const { return class_of_; }
+
+ private:
+  void number_nodes() {
+    graph scratch = shell_of(g_);
+    scratch.nodes.clear();
+    scratch.nodes.reserve(g_.nodes.size());
+    builder b(scratch);
+    std::vector<register_id> first(count_, none);
+    for (node_id id = 0; id < g_.nodes.size(); ++id) {
+      node n = g_.nodes[id];
+      for (node_id& operand : n.operands) operand = number_[operand];
+      if (n.kind == operation::register_value) {
+        register_id& representative = first[class_of_[n.object]];
+        if (representative == none) representative = n.object;
+        n.object = representative;
+      }
+      number_[id] = b.make(std::move(n));
+    }
+  }
+
+  const graph& g_;
+  std::vector<std::uint32_t> class_of_;  // of each register
+  std::vector<node_id> number_;          // of each node
+  std::uint32_t count_ = 0;
+};
+
+}  // namespace
+
+void merge_registers(graph& g) {
+  numbering numbers(g);
+  if (!numbers.refine()) return;
+  std::map<std::uint32_t, register_id> first;
+  std::vector<register_id> representative;
+  for (register_id r = 0; r < g.registers.size(); ++r)
+    representative.push_back(first.try_emplace(numbers.class_of()[r], r).first->second);
+  rebuild(g, [&](builder& b, node n, node_id) {
+    if (n.kind == operation::register_value) n.object = representative[n.object];
+    return b.make(std::move(n));
+  });
+}
+
+}  // namespace epiline::passes
