@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "passes/balance_trees.hpp"
@@ -25,13 +26,13 @@ constexpr unsigned max_rounds = 4;
 
 class runner {
  public:
-  runner(graph& g, std::vector<pass_record>* log) : g_(g), log_(log) { check("the given graph"); }
+  explicit runner(graph& g) : g_(g) { check("the given graph"); }
 
   void run(const char* name, const std::function<void(graph&)>& pass) {
     const graph_size before = size_of(g_);
     pass(g_);
     check(name);
-    if (log_ != nullptr) log_->push_back({name, before, size_of(g_)});
+    reports.push_back({name, before, size_of(g_)});
   }
 
   void shrink() {
@@ -44,6 +45,8 @@ class runner {
     }
   }
 
+  std::vector<pass_report> reports;
+
  private:
   void check(const char* where) const {
     if (const std::string what = dataflow::find_violation(g_); !what.empty())
@@ -51,7 +54,6 @@ class runner {
   }
 
   graph& g_;
-  std::vector<pass_record>* log_;
 };
 
 }  // namespace
@@ -69,8 +71,8 @@ graph_size size_of(const graph& g) {
   return size;
 }
 
-void run_default_pipeline(graph& g, std::vector<pass_record>* log, const pipeline_options& options) {
-  runner passes(g, log);
+std::vector<pass_report> run_default_pipeline(graph& g, const pipeline_options& options) {
+  runner passes(g);
   passes.run("simplify", simplify);
   passes.run("order_memory_accesses", order_memory_accesses);
   passes.run("merge_registers", merge_registers);
@@ -84,6 +86,17 @@ void run_default_pipeline(graph& g, std::vector<pass_record>* log, const pipelin
   passes.run("pack_memories", pack_memories);
   passes.run("forward_memories", [&](graph& x) { forward_memories(x, options.forwarded_writes); });
   passes.run("simplify", simplify);
+  return std::move(passes.reports);
+}
+
+nlohmann::json to_json(const std::vector<pass_report>& reports) {
+  const auto size = [](const graph_size& s) {
+    return nlohmann::json{{"nodes", s.nodes}, {"register_bits", s.register_bits}, {"memory_bits", s.memory_bits}};
+  };
+  nlohmann::json list = nlohmann::json::array();
+  for (const pass_report& r : reports)
+    list.push_back({{"pass", r.pass}, {"before", size(r.before)}, {"after", size(r.after)}});
+  return list;
 }
 
 }  // namespace epiline::passes

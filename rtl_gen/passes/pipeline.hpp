@@ -2,6 +2,7 @@
 // The passes in the order the compiler runs them.
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ struct graph_size {
 };
 [[nodiscard]] graph_size size_of(const dataflow::graph& g);
 
-struct pass_record {
+struct pass_report {
   std::string pass;
   graph_size before, after;
 };
@@ -27,11 +28,12 @@ struct pipeline_options {
   unsigned forwarded_writes = 1;  // see forward_memories
 };
 
-/// Runs all passes. The result outputs what `g` did (unspecified values count as 0, as in the interpreter) and has
-/// every memory's reads before its write. Records each pass in `log` if that is given. Throws memory_error
-/// (forward_memories.hpp) for memories that cannot be built, std::logic_error when `g` or a pass breaks a rule of
-/// graph.hpp.
-void run_default_pipeline(dataflow::graph& g, std::vector<pass_record>* log = nullptr,
-                          const pipeline_options& options = {});
+/// Runs all passes and tells what each one changed. The result outputs what `g` did (unspecified values count as 0, as
+/// in the interpreter) and has every memory's reads before its write. Throws memory_error (forward_memories.hpp) for
+/// memories that cannot be built, std::logic_error when `g` or what a pass made of it breaks a rule of graph.hpp.
+std::vector<pass_report> run_default_pipeline(dataflow::graph& g, const pipeline_options& options = {});
+
+/// A list of {"pass", "before", "after"}, the sizes as {"nodes", "register_bits", "memory_bits"}.
+[[nodiscard]] nlohmann::json to_json(const std::vector<pass_report>& reports);
 
 }  // namespace epiline::passes

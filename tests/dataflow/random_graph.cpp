@@ -270,21 +270,37 @@ class generator {
     }
   }
 
+  void add_output(const std::string& name, node_id value) {
+    const unsigned width = g_.nodes[value].width;
+    port p;
+    p.input = false;
+    p.name = name;
+    p.width = width;
+    p.fields = {{"v", "tdata", width, 0}};
+    g_.ports.push_back(p);
+    const node_id one = constant(llvm::APInt(1, 1));
+    make(operation::write, 0, {one, value}, static_cast<port_id>(g_.ports.size() - 1));
+  }
+
   void finish() {
     for (register_state& r : g_.registers) {
       r.next = value_of(r.width);
       r.enable = pick(3) == 0 ? value_of(1) : constant(llvm::APInt(1, 1));
     }
-    for (const unsigned width : {8u, 33u, 130u}) {  // always-on outputs, so that something is always compared
-      port p;
-      p.input = false;
-      p.name = "always" + std::to_string(width);
-      p.width = width;
-      p.fields = {{"v", "tdata", width, 0}};
-      g_.ports.push_back(p);
-      const node_id one = constant(llvm::APInt(1, 1));
-      make(operation::write, 0, {one, value_of(width)}, static_cast<port_id>(g_.ports.size() - 1));
+    for (const unsigned width : {8u, 33u, 130u}) add_output("always" + std::to_string(width), value_of(width));
+    // Most values nothing uses come out too: a graph of which most is dead would test little.
+    std::vector<char> used(g_.nodes.size(), 0);
+    for (const node& n : g_.nodes)
+      for (const node_id operand : n.operands) used[operand] = 1;
+    std::vector<node_id> unused;
+    unsigned sum = 0;
+    for (node_id id = 0; id < used.size(); ++id) {
+      if (used[id] || g_.nodes[id].width == 0 || pick(4) == 0) continue;
+      if (sum + g_.nodes[id].width > max_width) break;
+      sum += g_.nodes[id].width;
+      unused.push_back(id);
     }
+    if (unused.size() > 1) add_output("unused", make(operation::concat, sum, unused));
   }
 
   std::mt19937_64 random_;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <nlohmann/json.hpp>
 
 #include "dataflow/random_graph.hpp"
 #include "dataflow/text.hpp"
@@ -64,14 +65,13 @@ TEST(equivalence, default_pipeline) {
   check([](graph& g) { run_default_pipeline(g); });
 }
 
-TEST(equivalence, default_pipeline_shrinks_random_graphs) {
+TEST(pipeline, shrinks_random_graphs) {
   graph_size before, after;
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     graph g = random_graph(seed);
     before.nodes += size_of(g).nodes;
     before.register_bits += size_of(g).register_bits;
-    std::vector<pass_record> log;
-    run_default_pipeline(g, &log);
+    const std::vector<pass_report> log = run_default_pipeline(g);
     EXPECT_EQ(log.back().after, size_of(g));
     for (std::size_t i = 1; i < log.size(); ++i) EXPECT_EQ(log[i].before, log[i - 1].after);
     after.nodes += size_of(g).nodes;
@@ -80,7 +80,14 @@ TEST(equivalence, default_pipeline_shrinks_random_graphs) {
   EXPECT_LT(after.register_bits, before.register_bits);
 }
 
-TEST(equivalence, default_pipeline_refuses_an_illegal_graph) {
+TEST(pipeline, reports_as_json) {
+  const std::vector<pass_report> reports = {{"simplify", {5, 16, 100}, {3, 8, 0}}};
+  EXPECT_EQ(
+      to_json(reports).dump(),
+      R"([{"after":{"memory_bits":0,"nodes":3,"register_bits":8},"before":{"memory_bits":100,"nodes":5,"register_bits":16},"pass":"simplify"}])");
+}
+
+TEST(pipeline, refuses_an_illegal_graph) {
   graph g = random_graph(1);
   g.nodes.back().operands[0] = none;
   EXPECT_THROW(run_default_pipeline(g), std::logic_error);

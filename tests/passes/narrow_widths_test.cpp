@@ -42,14 +42,16 @@ TEST(known_values, contain_every_value_that_occurs) {
     interpreter run(watched);
     std::mt19937_64 random(seed);
     for (port_id p = 0; p < g.ports.size(); ++p)
-      for (unsigned i = 0; g.ports[p].input && i < 20; ++i) run.push(p, testing::random_value(random, g.ports[p].width));
+      for (unsigned i = 0; g.ports[p].input && i < 20; ++i)
+        run.push(p, testing::random_value(random, g.ports[p].width));
     run.run_until_blocked(20);
     for (node_id id = 0; id < g.nodes.size(); ++id) {
       if (output[id] == none) continue;
       const value_set& set = known.of_node(id);
       claims += set.range.isFullSet() && set.bits.isUnknown() ? 0 : 1;
       while (const auto value = run.pop(output[id])) {
-        ASSERT_TRUE(set.range.contains(*value) && (set.bits.One & ~*value).isZero() && (set.bits.Zero & *value).isZero())
+        ASSERT_TRUE(set.range.contains(*value) && (set.bits.One & ~*value).isZero() &&
+                    (set.bits.Zero & *value).isZero())
             << "seed " << seed << " node " << id << " " << name_of(g.nodes[id].kind);
         ++checked;
       }
