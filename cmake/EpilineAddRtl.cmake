@@ -3,8 +3,8 @@
 # epiline_add_rtl(TARGET TOP top SOURCE file.cpp [CLOCK 6ns] [TARGET ecp5] [DEFINES NAME=VALUE..] [INCLUDES folder..]
 #                 [OPTIONS option..])
 #   Runs epiline-hls into <binary dir>/TARGET.rtl (top.v, top.graph, report.json, report.txt), then does what
-#   epiline_add_verilog_model does. The folder is TARGET's property EPILINE_RTL_FOLDER. INCLUDES are added to the include
-#   directories of epiline_hls, i.e. of hls/ itself. OPTIONS are passed to epiline-hls as they are.
+#   epiline_add_verilog_model does. The folder is TARGET's property EPILINE_RTL_FOLDER. INCLUDES come beside hls/types, which
+#   epiline-hls knows. OPTIONS are passed to epiline-hls as they are.
 #
 # epiline_add_verilog_model(TARGET TOP module VERILOG file.v.. REPORT report.json [DEPENDS ..] [NO_LINT])
 #   Runs Verilator and compiles the model. TARGET is a static library; "TARGET_model.hpp" declares
@@ -109,7 +109,7 @@ function(epiline_add_rtl target)
   add_custom_command(
     OUTPUT ${fresh_files}
     COMMAND epiline-hls ${arg_SOURCE} --top ${arg_TOP} --clock ${arg_CLOCK} --target ${arg_TARGET} -o ${folder}.fresh
-            --depfile ${folder}.d ${arg_DEFINES} ${arg_INCLUDES} ${arg_OPTIONS}
+            --depfile ${folder}.d --quiet ${arg_DEFINES} ${arg_INCLUDES} ${arg_OPTIONS}
     DEPENDS epiline-hls ${arg_SOURCE}
     DEPFILE ${folder}.d
     COMMENT "Compiling ${arg_TOP} of ${target} to Verilog"
