@@ -1,6 +1,7 @@
 #include "levels.hpp"
 
 #include <fmt/format.h>
+#include <llvm/ADT/ArrayRef.h>
 
 #include <algorithm>
 #include <array>

@@ -157,11 +157,11 @@ class Generator:
         r = self.r
         variables = self.usable()
         pick = r.random()
-        if variables and pick < 0.8:
+        if variables and pick < 0.88:
             # recent variables more often, so that programs are deep rather than wide
             index = max(r.randrange(len(variables)), r.randrange(len(variables)))
             return variables[index].value()
-        if pick < 0.9:
+        if pick < 0.95:
             return self.c_literal()
         return self.ap_literal()
 
@@ -282,7 +282,7 @@ class Generator:
         if name in ("int", "unsigned", "long long", "unsigned long long") and self.r.random() < 0.5:
             method = {"int": "to_int", "unsigned": "to_uint", "long long": "to_int64",
                       "unsigned long long": "to_uint64"}[name]
-            return Value(f"({a.text}).{method}()", width, signed, tainted=a.tainted, c_int=True)
+            return Value(f"{a.text}.{method}()", width, signed, tainted=a.tainted, c_int=True)
         return Value(f"static_cast<{name}>({a.text})", width, signed, tainted=a.tainted, c_int=True)
 
     def make_range(self, depth):
@@ -297,14 +297,14 @@ class Generator:
             bits = max(1, (room + 1).bit_length() - 1)
             at = self.ap_operand(0).cast(bits, False)
             if (1 << bits) - 1 <= room:
-                where = Value(f"({a.text}).range({at.text} + {size - 1}, {at.text})", a.width, False, proxy=True,
+                where = Value(f"{a.text}.range({at.text} + {size - 1}, {at.text})", a.width, False, proxy=True,
                               tainted=a.tainted or at.tainted)
                 return where.cast(size, False)
         spelled = "range" if r.random() < 0.6 else ""
         if pick < 0.3:  # high and low swapped: reversed bits
-            text = f"({a.text}).range({low}, {high})"
+            text = f"{a.text}.range({low}, {high})"
         else:
-            text = f"({a.text}).range({high}, {low})" if spelled else f"({a.text})({high}, {low})"
+            text = f"{a.text}.range({high}, {low})" if spelled else f"{a.text}({high}, {low})"
         value = Value(text, a.width, False, proxy=True, tainted=a.tainted)
         return value if r.random() < 0.2 else value.cast(high - low + 1, False)
 
@@ -315,13 +315,13 @@ class Generator:
             index = Value(str(r.randrange(a.width)), 32, True)
         else:
             index = self.ap_operand(0).cast(r.randint(1, a.width.bit_length() - 1), False)
-        text = f"({a.text})[{index.text}]" if r.random() < 0.7 else f"({a.text}).test({index.text})"
+        text = f"{a.text}[{index.text}]" if r.random() < 0.7 else f"{a.text}.test({index.text})"
         return Value(text, 1, False, proxy=True, tainted=a.tainted or index.tainted).cast(1, False)
 
     def make_concat(self, depth):
         a = self.ap_operand(depth, 70)
         b = self.ap_operand(self.r.randint(0, depth), 60)
-        text = f"({a.text}, {b.text})" if self.r.random() < 0.7 else f"({a.text}).concat({b.text})"
+        text = f"({a.text}, {b.text})" if self.r.random() < 0.7 else f"{a.text}.concat({b.text})"
         value = Value(text, a.width + b.width, False, proxy=True, tainted=a.tainted or b.tainted)
         return value.cast(a.width + b.width, False)
 
@@ -334,7 +334,7 @@ class Generator:
     def make_reduce(self, depth):
         a = self.ap_operand(depth)
         method = self.r.choice(["and_reduce", "or_reduce", "xor_reduce"])
-        return Value(f"({a.text}).{method}()", 1, False, tainted=a.tainted, c_int=True)
+        return Value(f"{a.text}.{method}()", 1, False, tainted=a.tainted, c_int=True)
 
     def make_compare(self, depth):
         return self.compare(depth)
@@ -559,7 +559,7 @@ class Generator:
         if r.random() < 0.3:
             self.lines.append("#pragma HLS UNROLL")
         if source.width >= trips:
-            term = f"({source.text})[{k}]" if r.random() < 0.5 else f"(({source.text}) >> {k})"
+            term = f"{source.text}[{k}]" if r.random() < 0.5 else f"(({source.text}) >> {k})"
         else:
             term = f"(({source.text}) + {k})"
         if r.random() < 0.25:
@@ -1049,13 +1049,22 @@ class Generator:
         del self.scope[outer:]
         self.indent -= 1
 
+    def observed(self):
+        """An expression that lets much of what was computed be seen."""
+        value = self.expression(2).as_ap()
+        for v in self.r.sample(self.scope, min(len(self.scope), self.r.randint(1, 3))):
+            op = self.r.choice(["+", "-", "^", "^"])
+            width = self.join_width(value, v) + 1
+            value = self.limit(Value(f"({value.text} {op} {v.name})", width, op == "-" or value.signed or v.signed))
+        return value
+
     def write_port(self, port):
         r = self.r
         condition = None
         pick = r.random()
-        if pick < 0.4:
+        if pick < 0.2:
             condition = self.condition(2).text
-        elif pick < 0.5:
+        elif pick < 0.4:
             condition = self.cheap_condition()
         if condition:
             self.emit(f"if ({condition}) {{")
@@ -1065,18 +1074,18 @@ class Generator:
             token = self.fresh("t")
             self.emit(f"{port['type']} {token};")
             for member, _, _ in port["members"]:
-                self.emit(f"{token}.{member} = {self.expression(2).text};")
+                self.emit(f"{token}.{member} = {self.observed().text};")
             self.emit(f"{name}.write({token});")
         elif port["axis"]:
             token = self.fresh("t")
             self.emit(f"{port['type']} {token};")
-            self.emit(f"{token}.data = {self.expression(2).text};")
+            self.emit(f"{token}.data = {self.observed().text};")
             for member in ("keep", "strb", "user", "id", "dest"):
                 self.emit(f"{token}.{member} = {r.choice(['0', '-1', '1', self.expression(1).text])};")
             self.emit(f"{token}.last = {self.condition(1).text};")
             self.emit(f"{name}.write({token});")
         else:
-            value = self.expression(3)
+            value = self.observed()
             width, signed = port["data"]
             if not port["type"].startswith("ap_"):
                 value = Value(f"static_cast<{port['type']}>({value.as_ap().text})", width, signed)

@@ -75,26 +75,34 @@ class Batch:
         build = self.work / ("native_" + re.sub(r"\W", "_", pathlib.Path(compiler).name))
         build.mkdir(exist_ok=True)
         size = 13
-        parts = [names[i:i + size] for i in range(0, len(names), size)]
 
-        def compile_part(index):
-            source = build / f"part_{index}.cpp"
-            source.write_text("".join(f'#include "{n}.drive.cpp"\n' for n in parts[index]), encoding="utf-8")
-            return subprocess.run([compiler, *self.native_flags(), *extra, f"-I{folder}", "-c", str(source), "-o",
-                                   str(source.with_suffix(".o"))], capture_output=True, text=True, check=False)
+        def compile_source(stem, text):
+            source = build / f"{stem}.cpp"
+            source.write_text(text, encoding="utf-8")
+            run = subprocess.run([compiler, *self.native_flags(), *extra, f"-I{folder}", "-c", str(source), "-o",
+                                  str(source.with_suffix(".o"))], capture_output=True, text=True, check=False)
+            return run, str(source.with_suffix(".o"))
 
-        runs = self.parallel(compile_part, range(len(parts)))
-        main = build / "main.o"
-        runs.append(subprocess.run([compiler, *self.native_flags(), *extra, "-c", str(HERE / "drive_main.cpp"), "-o",
-                                    str(main)], capture_output=True, text=True, check=False))
-        for index, run in enumerate(runs):
-            if run.returncode != 0:
-                lines = [l for l in run.stderr.splitlines() if "error" in l][:5]
-                self.fail(f"part {index}", "native", "does not compile: " + "; ".join(lines))
-                return []
+        def compile_part(part):
+            """The objects of a part and the programs in them."""
+            run, made = compile_source(f"part_{part[0]}", "".join(f'#include "{n}.drive.cpp"\n' for n in part))
+            if run.returncode == 0:
+                return [made], part
+            if len(part) == 1:
+                lines = [l for l in run.stderr.splitlines() if "error" in l][:3]
+                self.fail(part[0], "native", f"{compiler}: does not compile: " + "; ".join(lines))
+                return [], []
+            halves = [compile_part(part[:len(part) // 2]), compile_part(part[len(part) // 2:])]
+            return halves[0][0] + halves[1][0], halves[0][1] + halves[1][1]
+
+        parts = self.parallel(compile_part, [names[i:i + size] for i in range(0, len(names), size)])
+        run, main = compile_source("main", f'#include "{HERE / "drive_main.cpp"}"\n')
+        if run.returncode != 0:
+            self.fail("drive_main", "native", run.stderr.strip()[-400:])
+            return []
+        names = sum((p[1] for p in parts), [])
         program = build / "drivers"
-        subprocess.run([compiler, *extra, *[str(build / f"part_{i}.o") for i in range(len(parts))], str(main), "-o",
-                        str(program)], check=True)
+        subprocess.run([compiler, *extra, *sum((p[0] for p in parts), []), main, "-o", str(program)], check=True)
         good = []
         run = subprocess.run([str(program), str(tokens)], capture_output=True, text=True, check=False)
         if run.returncode != 0:

@@ -1,0 +1,151 @@
+#!/usr/bin/env python3
+"""What epiline-hls refuses, and how.
+
+  check_errors.py COMPILER
+
+Every errors/NAME.cpp holds something unsupported in its top NAME. Lines that may be named carry a comment `// refused: words`, a regular
+expression (case is ignored) of which the message must contain something; `// options: ...` adds command line options. The compiler
+must name one of these lines as FILE:LINE, say the words and more, leave with an exit code from 1 to 127, and write nothing.
+The command line's own errors are in the table below.
+"""
+
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+KERNEL = HERE / "kernels" / "fir.cpp"
+
+# (name, arguments, regular expression); {out} is a folder that does not exist, {source} a good kernel, {file} a plain file.
+COMMAND_LINES = [
+    ("missing file", ["{out}_no_such.cpp", "--top", "fir", "-o", "{out}"], r"no_such\.cpp"),
+    ("source is a folder", ["{folder}", "--top", "fir", "-o", "{out}"], r"{folder}"),
+    ("no such top", ["{source}", "--top", "no_such_top", "-o", "{out}"], r"no_such_top"),
+    ("top is no name", ["{source}", "--top", "two words", "-o", "{out}"], r"two words"),
+    ("no top", ["{source}", "-o", "{out}"], r"--top"),
+    ("no output", ["{source}", "--top", "fir"], r"-o|--output"),
+    ("no source", ["--top", "fir", "-o", "{out}"], r"SOURCE|source"),
+    ("output is a file", ["{source}", "--top", "fir", "-o", "{file}"], r"{file}"),
+    ("output below a file", ["{source}", "--top", "fir", "-o", "{file}/below"], r"{file}"),
+    ("clock 0", ["{source}", "--top", "fir", "--clock", "0ns", "-o", "{out}"], r"clock|0ns"),
+    ("negative clock", ["{source}", "--top", "fir", "--clock=-3ns", "-o", "{out}"], r"clock|-3ns"),
+    ("clock without a number", ["{source}", "--top", "fir", "--clock", "fast", "-o", "{out}"], r"fast"),
+    ("clock with a strange unit", ["{source}", "--top", "fir", "--clock", "6parsecs", "-o", "{out}"], r"6parsecs"),
+    ("clock nan", ["{source}", "--top", "fir", "--clock", "nanns", "-o", "{out}"], r"nanns"),
+    ("unknown target", ["{source}", "--top", "fir", "--target", "abacus", "-o", "{out}"], r"abacus.*ecp5"),
+    ("unknown option", ["{source}", "--top", "fir", "--frobnicate", "-o", "{out}"], r"--frobnicate"),
+    ("period below any operation", ["{source}", "--top", "fir", "--clock", "0.01ns", "-o", "{out}"], r"period"),
+]
+
+
+def clean(folder):
+    """Nothing was written."""
+    return not folder.exists() or not any(folder.rglob("*"))
+
+
+def run(compiler, arguments):
+    environment = dict(os.environ, LC_ALL="C")
+    try:
+        return subprocess.run([compiler, *arguments], capture_output=True, text=True, timeout=60, env=environment,
+                              check=False)
+    except subprocess.TimeoutExpired:
+        return None
+
+
+def judge(result, out):
+    if result is None:
+        return ["takes more than 60 s"]
+    problems = []
+    if result.returncode == 0:
+        problems.append("accepted")
+    elif result.returncode < 0 or result.returncode > 127:
+        problems.append(f"crashed ({result.returncode})")
+    if not clean(out):
+        problems.append("left output: " + ", ".join(sorted(p.name for p in out.rglob("*"))))
+    if re.search(r"LLVM ERROR|Stack dump|Assertion|terminate called", result.stderr):
+        problems.append("ended by an internal error")
+    return problems
+
+
+def check_source(compiler, source, folder):
+    options, lines, words = [], [], []
+    for number, line in enumerate(source.read_text(encoding="utf-8").splitlines(), 1):
+        match = re.match(r"// options: (.*)", line)
+        if match:
+            options = match.group(1).split()
+        match = re.search(r"// refused: (.*)", line)
+        if match:
+            lines.append(number)
+            words.append(match.group(1))
+    if not lines:
+        return ["no line says // refused:"], ""
+    out = folder / source.stem
+    result = run(compiler, [str(source), "--top", source.stem, "-o", str(out), *options])
+    problems = judge(result, out)
+    if result is None:
+        return problems, ""
+    errors = [l for l in result.stderr.splitlines() if "error" in l or re.search(r"\.cpp:\d+", l)]
+    named = [int(n) for l in errors for n in re.findall(re.escape(source.name) + r":(\d+)", l)]
+    if not set(named) & set(lines):
+        problems.append(f"names line(s) {sorted(set(named)) or 'none'}, not {lines}")
+    if not re.search("|".join(words), result.stderr, re.IGNORECASE):
+        problems.append(f"does not say {'|'.join(sorted(set(words)))!r}")
+    return problems, result.stderr
+
+
+def check_command_line(compiler, arguments, expression, folder):
+    out = folder / "out"
+    plain = folder / "plain_file"
+    plain.write_text("untouched", encoding="utf-8")
+    values = {"out": str(out), "source": str(KERNEL), "file": str(plain), "folder": str(folder)}
+    result = run(compiler, [a.format(**values) for a in arguments])
+    problems = judge(result, out)
+    if plain.read_text(encoding="utf-8") != "untouched":
+        problems.append("changed a file it should not")
+    expression = expression.format(**{k: re.escape(v) for k, v in values.items()})
+    if result is not None and not re.search(expression, result.stderr, re.DOTALL):
+        problems.append(f"does not say {expression!r}")
+    return problems, "" if result is None else result.stderr
+
+
+def check_write_protected(compiler, folder):
+    """A folder that cannot be written; only meaningful when not root, so /proc stands in."""
+    result = run(compiler, [str(KERNEL), "--top", "fir", "-o", "/proc/epiline"])
+    problems = judge(result, folder / "out")
+    if result is not None and "/proc/epiline" not in result.stderr:
+        problems.append("does not name the folder")
+    return problems, "" if result is None else result.stderr
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__.split("\n\n")[1])
+    compiler, only = sys.argv[1], sys.argv[2:]
+    checks = []
+    for source in sorted((HERE / "errors").glob("*.cpp")):
+        checks.append((source.stem, lambda f, s=source: check_source(compiler, s, f)))
+    for name, arguments, expression in COMMAND_LINES:
+        checks.append((name, lambda f, a=arguments, e=expression: check_command_line(compiler, a, e, f)))
+    checks.append(("write-protected output", lambda f: check_write_protected(compiler, f)))
+    bad = 0
+    total = 0
+    for name, check in checks:
+        if only and name not in only:
+            continue
+        total += 1
+        with tempfile.TemporaryDirectory() as folder:
+            problems, message = check(pathlib.Path(folder))
+        if problems:
+            bad += 1
+            print(f"FAILED {name}: {'; '.join(problems)}\n    message: {message.strip()[:600]}", flush=True)
+        elif only:
+            print(message)
+    print(f"{total - bad} of {total} refused as they should be")
+    sys.exit(1 if bad or not total else 0)
+
+
+if __name__ == "__main__":
+    main()
