@@ -85,8 +85,10 @@ class engine_registry {
   std::vector<entry> entries_;
 };
 
-/// Throws engine_error unless the two images agree in size, fit the design, and levels and parameters are known and in
-/// range.
+/// Throws engine_error unless levels and parameters are known and in range.
+void check_settings(const design_description& design, const match_request& request);
+
+/// check_settings(), and throws engine_error unless the two images agree in size and fit the design.
 void check_request(const design_description& design, const match_request& request);
 
 }  // namespace epiline::eval

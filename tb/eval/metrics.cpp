@@ -1,0 +1,86 @@
+#include "eval/metrics.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace epiline::eval {
+namespace {
+
+double share(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+void require_size(std::string_view what, int width, int height, const disparity_map& map) {
+  if (width == map.width && height == map.height) return;
+  throw std::invalid_argument(
+      fmt::format("{} is {}x{}, but the disparity map is {}x{}", what, width, height, map.width, map.height));
+}
+
+void count(accuracy_counts& counts, bool defined, int disparity, double truth) {
+  ++counts.known;
+  if (!defined) return;
+  ++counts.defined;
+  const double error = std::abs(disparity - truth);
+  counts.error_sum += error;
+  counts.correct += error <= 1 ? 1 : 0;
+  counts.bad_half += error > 0.5 ? 1 : 0;
+  counts.bad_one += error > 1 ? 1 : 0;
+  counts.bad_two += error > 2 ? 1 : 0;
+}
+
+}  // namespace
+
+double accuracy_counts::coverage() const { return share(defined, known); }
+double accuracy_counts::accuracy() const { return share(correct, defined); }
+double accuracy_counts::bad_half_share() const { return share(bad_half, defined); }
+double accuracy_counts::bad_one_share() const { return share(bad_one, defined); }
+double accuracy_counts::bad_two_share() const { return share(bad_two, defined); }
+double accuracy_counts::bad_one_undefined_share() const { return share(bad_one + known - defined, known); }
+double accuracy_counts::average_error() const { return defined == 0 ? 0 : error_sum / static_cast<double>(defined); }
+
+double map_figures::coverage() const { return share(defined, pixels); }
+
+map_figures measure(const disparity_map& map, const ground_truth* truth) {
+  map_figures figures;
+  figures.pixels = map.defined.size();
+  for (const auto defined : map.defined) figures.defined += defined;
+  if (truth == nullptr) return figures;
+
+  require_size("the ground truth", truth->disparity.width, truth->disparity.height, map);
+  if (truth->evaluated) require_size("the mask", truth->evaluated->width, truth->evaluated->height, map);
+  if (truth->non_occluded) {
+    require_size("the mask of non-occluded pixels", truth->non_occluded->width, truth->non_occluded->height, map);
+    figures.non_occluded.emplace();
+  }
+  figures.all.emplace();
+  for (std::size_t i = 0; i < map.defined.size(); ++i) {
+    const double expected = truth->disparity.values[i];
+    if (!std::isfinite(expected) || (truth->evaluated && !truth->evaluated->selected[i])) continue;
+    count(*figures.all, map.defined[i] != 0, map.disparity[i], expected);
+    if (truth->non_occluded && truth->non_occluded->selected[i]) {
+      count(*figures.non_occluded, map.defined[i] != 0, map.disparity[i], expected);
+    }
+  }
+  return figures;
+}
+
+map_difference compare(const disparity_map& a, const disparity_map& b) {
+  require_size("the other map", b.width, b.height, a);
+  map_difference difference;
+  difference.pixels = a.defined.size();
+  for (int y = 0; y < a.height; ++y) {
+    for (int x = 0; x < a.width; ++x) {
+      const std::size_t i = a.index(x, y);
+      if (a.defined[i] == b.defined[i] && a.disparity[i] == b.disparity[i]) continue;
+      if (difference.differing++ == 0) {
+        difference.first_x = x;
+        difference.first_y = y;
+      }
+    }
+  }
+  return difference;
+}
+
+}  // namespace epiline::eval
