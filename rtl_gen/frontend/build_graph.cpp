@@ -395,6 +395,8 @@ class graph_builder {
       for (const Value* incoming : llvm::cast<llvm::PHINode>(value)->incoming_values()) {
         const auto* other = llvm::dyn_cast<Instruction>(incoming);
         if (other == nullptr || alive.count(other) == 0) continue;
+        // What a patient step computes keeps a register of its own: only then it has time.
+        if (!is_cut_phi(other) && only_in_patient_steps(other->getParent())) continue;
         const Instruction* a = find(value);
         const Instruction* b = find(other);
         if (a == b) continue;

@@ -24,6 +24,8 @@ namespace epiline::frontend {
 
 namespace {
 
+using llvm::Instruction;
+
 constexpr unsigned longest_outer_unroll = 64;    // trips of a constant loop outside of all others
 constexpr unsigned longest_inner_unroll = 1024;  // trips of a constant loop inside a pipelined one
 
@@ -153,6 +155,50 @@ void rotate_loops(llvm::Function& function, llvm::FunctionAnalysisManager& analy
     llvm::simplifyLoop(&loop, &dominators, &loops, &evolution, &assumptions, nullptr, false);
     llvm::formLCSSARecursively(loop, dominators, &loops, &evolution);
     llvm::LoopRotation(&loop, &loops, &costs, &assumptions, &dominators, &evolution, nullptr, query, false, 1000, true);
+  }
+}
+
+namespace {
+
+/// The increment of a counter by a constant that decides something in the loop, or null.
+llvm::BinaryOperator* deciding_increment(const llvm::PHINode& counter, const llvm::Loop& loop) {
+  auto* next = llvm::dyn_cast<llvm::BinaryOperator>(counter.getIncomingValueForBlock(loop.getLoopLatch()));
+  if (next == nullptr || next->getOpcode() != Instruction::Add || next->getOperand(0) != &counter || !llvm::isa<llvm::ConstantInt>(next->getOperand(1)))
+    return nullptr;
+  for (const llvm::User* user : next->users())
+    if (user != &counter) return next;
+  return nullptr;
+}
+
+}  // namespace
+
+void look_ahead(llvm::Function& function, llvm::FunctionAnalysisManager& analyses) {
+  auto& loops = analyses.getResult<llvm::LoopAnalysis>(function);
+  auto& dominators = analyses.getResult<llvm::DominatorTreeAnalysis>(function);
+  auto& assumptions = analyses.getResult<llvm::AssumptionAnalysis>(function);
+  for (llvm::Loop* loop : loops.getLoopsInPreorder()) {
+    llvm::simplifyLoop(loop, &dominators, &loops, nullptr, &assumptions, nullptr, false);
+    llvm::BasicBlock* const before = loop->getLoopPreheader();
+    llvm::BasicBlock* const latch = loop->getLoopLatch();
+    if (before == nullptr || latch == nullptr) continue;
+    std::vector<llvm::PHINode*> counters;
+    for (llvm::PHINode& phi : loop->getHeader()->phis())
+      if (phi.getNumIncomingValues() == 2 && phi.getType()->isIntegerTy()) counters.push_back(&phi);
+    for (llvm::PHINode* counter : counters) {
+      llvm::BinaryOperator* const next = deciding_increment(*counter, *loop);
+      if (next == nullptr) continue;
+      llvm::Value* const step = next->getOperand(1);
+      llvm::IRBuilder<> builder(before->getTerminator());
+      llvm::Value* const first = builder.CreateAdd(counter->getIncomingValueForBlock(before), step);
+      builder.SetInsertPoint(counter);
+      llvm::PHINode* const ahead = builder.CreatePHI(counter->getType(), 2, counter->getName().split('.').first + "_next");
+      builder.SetInsertPoint(latch->getTerminator());
+      builder.SetCurrentDebugLocation(next->getDebugLoc());
+      ahead->addIncoming(first, before);
+      ahead->addIncoming(builder.CreateAdd(ahead, step), latch);
+      next->replaceAllUsesWith(ahead);
+      next->eraseFromParent();
+    }
   }
 }
 

@@ -17,4 +17,8 @@ namespace epiline::frontend {
 /// other without an idle clock.
 void rotate_loops(llvm::Function& function, llvm::FunctionAnalysisManager& analyses);
 
+/// Keeps the next value of every loop counter in a register of its own, so that the test "does the loop go on" need not
+/// wait for the increment: compare and add take place side by side, not one after the other in one clock.
+void look_ahead(llvm::Function& function, llvm::FunctionAnalysisManager& analyses);
+
 }  // namespace epiline::frontend

@@ -365,6 +365,7 @@ lowered_process lower(compiled_source& source, const source_options& options) {
   rotate_loops(process, managers.function);
   managers.function.invalidate(process, llvm::PreservedAnalyses::none());
   run_passes(process, managers, late_cleanup());
+  look_ahead(process, managers.function);
   return result;
 }
 

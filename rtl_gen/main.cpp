@@ -1,0 +1,216 @@
+// epiline-hls: a C++ top function in, Verilog and reports out.
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dataflow/text.hpp"
+#include "emit/report.hpp"
+#include "emit/verilog.hpp"
+#include "frontend/frontend.hpp"
+#include "passes/pipeline.hpp"
+#include "schedule/schedule.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace epiline;
+
+struct command_line {
+  frontend::source_options source;
+  std::string target = "ecp5";
+  std::string clock = "6ns";
+  std::string interval = "1";
+  std::string scheduler = "optimal";
+  std::uint64_t seed = 1;
+  std::string output;
+  std::string depfile;
+  bool quiet = false;
+};
+
+class usage_error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// "6ns", "6.5", "166MHz" as a period in nanoseconds.
+double parse_clock(const std::string& text) {
+  std::size_t end = 0;
+  double value = 0;
+  try {
+    value = std::stod(text, &end);
+  } catch (const std::exception&) {
+    end = 0;
+  }
+  const std::string unit = text.substr(end);
+  if (unit == "MHz" && value > 0) value = 1000.0 / value;
+  else if (!unit.empty() && unit != "ns") end = 0;
+  if (end == 0 || !(value >= 0.5 && value <= 1000))
+    throw usage_error(fmt::format("--clock {}: not a clock: give a period from 0.5ns to 1000ns, or a frequency like 150MHz", text));
+  return value;
+}
+
+/// Files appear under their names only when all of them are written.
+class output_folder {
+ public:
+  explicit output_folder(const std::string& path) : path_(path) {
+    std::error_code failed;
+    fs::create_directories(path_, failed);
+    if (failed || !fs::is_directory(path_))
+      throw usage_error(fmt::format("{}: cannot be made: {}: choose another folder with -o", path, failed ? failed.message() : "it is not a folder"));
+  }
+  ~output_folder() {
+    std::error_code ignored;
+    for (const fs::path& file : files_) fs::remove(temporary(file), ignored);
+  }
+  output_folder(const output_folder&) = delete;
+  output_folder& operator=(const output_folder&) = delete;
+
+  void write(const std::string& name, const std::string& text) { write_file(path_ / name, text); }
+
+  void write_file(const fs::path& file, const std::string& text) {
+    files_.push_back(file);
+    std::ofstream out(temporary(file), std::ios::binary);
+    out << text;
+    out.flush();
+    if (!out) throw usage_error(fmt::format("{}: cannot be written: is the folder writable and the disk not full?", file.string()));
+  }
+
+  void commit() {
+    for (const fs::path& file : files_) fs::rename(temporary(file), file);
+    files_.clear();
+  }
+
+ private:
+  static fs::path temporary(const fs::path& file) { return file.string() + ".part"; }
+  fs::path path_;
+  std::vector<fs::path> files_;
+};
+
+/// The schedule, at the smallest initiation interval allowed that is possible.
+schedule::result find_schedule(const dataflow::graph& graph, const schedule::delay_model& model, const command_line& given,
+                               double period, unsigned allowed_by_source) {
+  schedule::options options;
+  options.period = period;
+  int largest = static_cast<int>(allowed_by_source);
+  if (given.interval == "auto") largest = 64;
+  else if (given.interval != "1") options.initiation_interval = largest = std::atoi(given.interval.c_str());
+  for (;; ++options.initiation_interval) {
+    try {
+      return given.scheduler == "random" ? schedule::make_random_schedule(graph, model, options, given.seed)
+                                         : schedule::make_schedule(graph, model, options);
+    } catch (const schedule::infeasible&) {
+      if (options.initiation_interval >= largest) throw;
+    }
+  }
+}
+
+std::string dependency_file(const std::string& target, const std::vector<std::string>& files) {
+  std::string text = target + ":";
+  for (const std::string& file : files) text += " \\\n  " + file;
+  return text + "\n";
+}
+
+class stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    return seconds;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+void run(const command_line& given) {
+  const double period = parse_clock(given.clock);
+  const schedule::delay_model model(given.target);
+  output_folder output(given.output);
+  stopwatch watch;
+
+  llvm::LLVMContext context;
+  frontend::compiled_source source = frontend::compile(given.source, context);
+  for (const std::string& note : source.notes) std::cerr << note << '\n';
+  frontend::lowered_process process = frontend::lower(source, given.source);
+  dataflow::graph graph = frontend::build_graph(process, given.source.top.substr(given.source.top.rfind(':') + 1));
+  const double frontend_seconds = watch.lap();
+
+  const std::vector<passes::pass_report> pass_log = passes::run_default_pipeline(graph);
+  if (const std::string violation = dataflow::find_violation(graph); !violation.empty())
+    throw std::logic_error("the passes made an ill-formed graph: " + violation);
+  const double pass_seconds = watch.lap();
+
+  const schedule::result schedule = find_schedule(graph, model, given, period, process.initiation_interval);
+  const double schedule_seconds = watch.lap();
+
+  emit::report_options report_options;
+  report_options.passes = passes::to_json(pass_log);
+  const nlohmann::json report = emit::make_report(graph, model, schedule, report_options);
+  output.write(graph.name + ".v", emit::emit_verilog(graph, model, schedule));
+  output.write(graph.name + ".graph", dataflow::print(graph));
+  output.write("report.json", report.dump(2) + "\n");
+  output.write("report.txt", emit::report_text(report));
+  if (!given.depfile.empty())
+    output.write_file(given.depfile, dependency_file((fs::path(given.output) / (graph.name + ".v")).string(), source.dependencies));
+  output.commit();
+  if (!given.quiet)
+    std::cout << fmt::format(
+        "{}: {} operations, {} stages at {:.2f} ns, one iteration every {} clock{}\n"
+        "  C++ to graph {:.1f} s, passes {:.1f} s, schedule {:.1f} s, Verilog and reports {:.1f} s\n"
+        "  {}/{}.v, {}.graph, report.json, report.txt\n",
+        graph.name, graph.nodes.size(), schedule.depth, period, schedule.initiation_interval,
+        schedule.initiation_interval == 1 ? "" : "s", frontend_seconds, pass_seconds, schedule_seconds, watch.lap(), given.output,
+        graph.name, graph.name);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  command_line given;
+  CLI::App app("Compiles a C++ function over hls::stream into Verilog.");
+  app.name("epiline-hls");
+  app.set_version_flag("--version", "epiline-hls " EPILINE_VERSION);
+  app.add_option("source", given.source.source, "the C++ file that defines the top function")->required();
+  app.add_option("--top", given.source.top, "the top function's name")->required();
+  app.add_option("-o,--output", given.output, "folder for NAME.v, NAME.graph, report.json and report.txt")->required();
+  app.add_option("--target", given.target, "device whose delays and memories are assumed: ecp5, hx8k, generic")->capture_default_str();
+  app.add_option("--clock", given.clock, "period (6ns) or frequency (150MHz) to reach")->capture_default_str();
+  app.add_option("-I", given.source.includes, "folder to search for headers")->allow_extra_args(false);
+  app.add_option("-D", given.source.definitions, "macro, NAME or NAME=VALUE")->allow_extra_args(false);
+  app.add_option("--ii", given.interval, "clocks from one iteration to the next: a number, or auto for the fewest possible")->capture_default_str();
+  app.add_option("--schedule", given.scheduler, "optimal, or random: any legal one, a test tool")
+      ->check(CLI::IsMember({"optimal", "random"}))->capture_default_str();
+  app.add_option("--seed", given.seed, "of the random schedule")->capture_default_str();
+  app.add_option("--depfile", given.depfile, "write the files read, as a Makefile rule, for build systems");
+  app.add_flag("-q,--quiet", given.quiet, "print nothing but problems");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    if (given.interval != "auto" && (given.interval.find_first_not_of("0123456789") != std::string::npos || given.interval.empty() ||
+                                     given.interval.size() > 3 || std::stoi(given.interval) == 0))
+      throw usage_error(fmt::format("--ii {}: give a number from 1 to 999, or auto", given.interval));
+    run(given);
+    return 0;
+  } catch (const frontend::refused& refusal) {
+    std::cerr << refusal.what() << '\n';
+  } catch (const schedule::infeasible& refusal) {
+    std::cerr << refusal.what() << '\n';
+  } catch (const std::invalid_argument& refusal) {
+    std::cerr << "error: " << refusal.what() << '\n';
+  } catch (const usage_error& refusal) {
+    std::cerr << "error: " << refusal.what() << '\n';
+  } catch (const std::exception& failure) {
+    std::cerr << "error: internal: " << failure.what() << ": please report this with the source file\n";
+    return 70;
+  }
+  return 1;
+}
