@@ -64,8 +64,9 @@ eval::disparity_map map_of_beats(const std::vector<beat>& beats, int width, int 
     const int y = static_cast<int>(i / row_beats);
     const auto require = [&](std::string_view signal, std::uint32_t value, std::uint32_t wanted) {
       if (value == wanted) return;
-      throw malformed_frame(fmt::format("beat {} of the disparity stream (row {}, beat {} of the row): {} is {:#x}, not {:#x}",
-                                        i, y, b, signal, value, wanted));
+      throw malformed_frame(
+          fmt::format("beat {} of the disparity stream (row {}, beat {} of the row): {} is {:#x}, not {:#x}", i, y, b,
+                      signal, value, wanted));
     };
     require("tuser", token.user, i == 0 ? 1 : 0);
     require("tlast", token.last ? 1 : 0, b + 1 == row_beats ? 1 : 0);

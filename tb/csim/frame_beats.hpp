@@ -3,8 +3,8 @@
 // Used by every engine that feeds a top (native C++, dataflow graph, RTL, netlist).
 //
 // A row starts a new beat; lane 0 (the leftmost pixel) is in the low bits. tuser = 1 marks the first beat of a frame,
-// tlast the last beat of a row; tkeep has one bit a byte, set where the lane holds a pixel of the row. Lanes past the end
-// of a row are 0.
+// tlast the last beat of a row; tkeep has one bit a byte, set where the lane holds a pixel of the row. Lanes past the
+// end of a row are 0.
 
 #include <array>
 #include <cstdint>
@@ -15,8 +15,8 @@
 
 namespace epiline::csim {
 
-inline constexpr unsigned input_lane_bits = 24;      // red in bits 7..0, green in 15..8, blue in 23..16
-inline constexpr unsigned disparity_lane_bits = 8;   // the disparity in bits 6..0, bit 7 = defined
+inline constexpr unsigned input_lane_bits = 24;     // red in bits 7..0, green in 15..8, blue in 23..16
+inline constexpr unsigned disparity_lane_bits = 8;  // the disparity in bits 6..0, bit 7 = defined
 
 /// One token of a video stream as plain bits; word 0 of `data` holds bits 31..0.
 struct beat {

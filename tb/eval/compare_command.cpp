@@ -46,7 +46,8 @@ bool run(const compare_options& options, const engine_registry& registry) {
     differing += difference.differing;
     if (difference.differing != 0) {
       fmt::print("{} differs from {} in {} of {} pixels, first at column {}, row {}\n", entry->name,
-                 entries.front()->name, difference.differing, difference.pixels, difference.first_x, difference.first_y);
+                 entries.front()->name, difference.differing, difference.pixels, difference.first_x,
+                 difference.first_y);
     }
   }
   const map_figures figures = measure(first, job.truth ? &*job.truth : nullptr);
@@ -64,13 +65,14 @@ bool run(const compare_options& options, const engine_registry& registry) {
 
 void add_compare_command(CLI::App& application, const engine_registry& registry, int& exit_code) {
   auto* command = application.add_subcommand(
-      "compare", "match one stereo pair with several engines and compare the maps bit for bit; outputs are the first's");
+      "compare",
+      "match one stereo pair with several engines and compare the maps bit for bit; outputs are the first's");
   const auto options = std::make_shared<compare_options>();
   options->add_to(*command);
   command->add_option("--engines", options->engines, "engines to compare (default golden,native)")
       ->option_text("NAME,NAME,...")
       ->delimiter(',')
-      ->expected(1);
+      ->allow_extra_args(false);
   command->callback([options, &registry, &exit_code] { exit_code = run(*options, registry) ? 0 : 1; });
 }
 

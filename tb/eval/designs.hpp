@@ -24,9 +24,9 @@ struct parameter_description {
 struct design_description {
   std::string_view name;
   std::string_view meaning;
-  int max_width;        // columns the line memories hold
-  int max_height;       // rows the frame counters hold
-  int max_levels;       // disparity levels of the hardware
+  int max_width;   // columns the line memories hold
+  int max_height;  // rows the frame counters hold
+  int max_levels;  // disparity levels of the hardware
   int default_levels;
   int pixels_per_beat;  // of the top the engines run
   std::span<const parameter_description> parameters;

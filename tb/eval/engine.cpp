@@ -9,8 +9,8 @@ namespace epiline::eval {
 
 void engine_registry::add(entry new_entry) {
   if (find_design(new_entry.design) == nullptr) {
-    throw std::logic_error(fmt::format("engine {} is for design {}, which does not exist", new_entry.name,
-                                       new_entry.design));
+    throw std::logic_error(
+        fmt::format("engine {} is for design {}, which does not exist", new_entry.name, new_entry.design));
   }
   if (find(new_entry.design, new_entry.name) != nullptr) {
     throw std::logic_error(fmt::format("engine {} of design {} is registered twice", new_entry.name, new_entry.design));
@@ -34,8 +34,8 @@ std::vector<const engine_registry::entry*> engine_registry::engines_of(std::stri
 
 void check_settings(const design_description& design, const match_request& request) {
   if (request.levels < 1 || request.levels > design.max_levels) {
-    throw engine_error(fmt::format("levels is {}, but design {} takes 1 to {}", request.levels, design.name,
-                                   design.max_levels));
+    throw engine_error(
+        fmt::format("levels is {}, but design {} takes 1 to {}", request.levels, design.name, design.max_levels));
   }
   for (const auto& parameter : design.parameters) {
     const auto found = request.parameters.find(parameter.name);

@@ -86,13 +86,14 @@ void job_options::add_to(CLI::App& command) {
   command.add_option("--levels", levels, "disparity levels (default 80, or the design's maximum)")->option_text("N");
   command.add_option("--set", settings, "run-time parameter NAME=VALUE; may be repeated (see --list)")
       ->option_text("NAME=VALUE")
-      ->expected(1);
+      ->allow_extra_args(false);
   command
       .add_option("-o,--output", output,
                   "disparity map: .pfm (undefined = inf), .png (16 bit, disparity * 256, 0 = undefined) or .pgm "
                   "(8 bit, 255 = undefined)")
       ->option_text("FILE");
-  command.add_option("--picture", picture, "colour picture for people, undefined pixels black")->option_text("FILE.png");
+  command.add_option("--picture", picture, "colour picture for people, undefined pixels black")
+      ->option_text("FILE.png");
   command.add_option("--json", json, "figures: time, cycles, coverage, accuracy, ...")->option_text("FILE");
   command.add_option("--truth", truth, "true disparities of the left image (PFM, PGM, PNG): adds accuracy")
       ->option_text("FILE");
@@ -101,8 +102,7 @@ void job_options::add_to(CLI::App& command) {
                   "disparity = value / scale (default 1 for PFM and 8-bit, 256 for 16-bit pictures)")
       ->option_text("N");
   command.add_option("--mask", mask, "only pixels that are 255 here count for accuracy")->option_text("FILE");
-  command
-      .add_option("--mask-nonocc", non_occluded_mask, "255 = not occluded: adds accuracy over those pixels")
+  command.add_option("--mask-nonocc", non_occluded_mask, "255 = not occluded: adds accuracy over those pixels")
       ->option_text("FILE");
   command.add_option("--seed", run.seed, "seed of random input gaps and output stalls (default 1)")->option_text("N");
   command
@@ -211,11 +211,12 @@ nlohmann::ordered_json figures_json(const map_figures& figures) {
 }
 
 std::string figures_text(const map_figures& figures) {
-  std::string text = fmt::format("coverage {:.2f} % ({} of {} pixels)\n", figures.coverage(), figures.defined,
-                                 figures.pixels);
+  std::string text =
+      fmt::format("coverage {:.2f} % ({} of {} pixels)\n", figures.coverage(), figures.defined, figures.pixels);
   const auto add = [&](std::string_view set, const accuracy_counts& counts) {
     text += fmt::format(
-        "{}: accuracy {:.2f} % ({} of {} defined), coverage {:.2f} %; bad-0.5/1/2 {:.2f}/{:.2f}/{:.2f} %, average error "
+        "{}: accuracy {:.2f} % ({} of {} defined), coverage {:.2f} %; bad-0.5/1/2 {:.2f}/{:.2f}/{:.2f} %, average "
+        "error "
         "{:.3f}, bad-1 with undefined {:.2f} %\n",
         set, counts.accuracy(), counts.correct, counts.defined, counts.coverage(), counts.bad_half_share(),
         counts.bad_one_share(), counts.bad_two_share(), counts.average_error(), counts.bad_one_undefined_share());

@@ -3,7 +3,6 @@
 // request before anything long begins.
 
 #include <CLI/CLI.hpp>
-
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>

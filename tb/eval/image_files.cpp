@@ -95,9 +95,10 @@ cv::Mat decode(const std::string& bytes, int flags, const fs::path& path) {
     }
   }
   if (picture.empty()) {
-    throw file_error(fmt::format("cannot read {}: it is not a picture of a known format, or it is damaged or cut short; "
-                                 "fetch it again or convert it to PNG",
-                                 path.string()));
+    throw file_error(
+        fmt::format("cannot read {}: it is not a picture of a known format, or it is damaged or cut short; "
+                    "fetch it again or convert it to PNG",
+                    path.string()));
   }
   return picture;
 }
@@ -108,7 +109,9 @@ cv::Mat decode_one_channel(const std::string& bytes, const fs::path& path, std::
   // A grey picture saved in colour is common; anything else is somebody's visualisation, not data.
   std::vector<cv::Mat> channels;
   cv::split(picture, channels);
-  const auto differ = [&](int c) { return cv::countNonZero(channels[0] != channels[static_cast<std::size_t>(c)]) != 0; };
+  const auto differ = [&](int c) {
+    return cv::countNonZero(channels[0] != channels[static_cast<std::size_t>(c)]) != 0;
+  };
   if (channels.size() < 3 || differ(1) || differ(2)) {
     throw file_error(fmt::format("{} is in colour, but {} must be a grey picture", path.string(), kind));
   }
@@ -167,8 +170,8 @@ bool is_pfm(std::string_view bytes) { return bytes.starts_with("Pf") || bytes.st
 rgb_image read_stereo_image(const fs::path& path) {
   const std::string bytes = read_bytes(path);
   if (is_pfm(bytes)) {
-    throw file_error(fmt::format("{} is a floating-point picture, but stereo inputs must have 8 bits a colour",
-                                 path.string()));
+    throw file_error(
+        fmt::format("{} is a floating-point picture, but stereo inputs must have 8 bits a colour", path.string()));
   }
   const cv::Mat picture = decode(bytes, cv::IMREAD_COLOR | cv::IMREAD_ANYDEPTH, path);
   if (picture.depth() != CV_8U) {
@@ -195,8 +198,8 @@ real_map read_truth(const fs::path& path, std::optional<double> scale) {
   }
   const cv::Mat picture = decode_one_channel(bytes, path, "ground truth");
   if (picture.depth() != CV_8U && picture.depth() != CV_16U) {
-    throw file_error(fmt::format("{} is neither PFM nor an 8- or 16-bit picture, as ground truth must be",
-                                 path.string()));
+    throw file_error(
+        fmt::format("{} is neither PFM nor an 8- or 16-bit picture, as ground truth must be", path.string()));
   }
   const double divisor = scale.value_or(picture.depth() == CV_16U ? 256 : 1);
   real_map truth{picture.cols, picture.rows, {}};

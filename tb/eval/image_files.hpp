@@ -32,17 +32,17 @@ struct pixel_mask {
 /// pictures are refused.
 [[nodiscard]] rgb_image read_stereo_image(const std::filesystem::path& path);
 
-/// Ground truth: PFM (NaN and infinities = unknown) or a one-channel 8- or 16-bit picture (0 = unknown). The disparity is
-/// value / scale; the default scale is 1 for PFM and 8-bit pictures and 256 for 16-bit ones (KITTI's convention). The
-/// scale in a PFM's header gives its byte order only.
+/// Ground truth: PFM (NaN and infinities = unknown) or a one-channel 8- or 16-bit picture (0 = unknown). The disparity
+/// is value / scale; the default scale is 1 for PFM and 8-bit pictures and 256 for 16-bit ones (KITTI's convention).
+/// The scale in a PFM's header gives its byte order only.
 [[nodiscard]] real_map read_truth(const std::filesystem::path& path, std::optional<double> scale = std::nullopt);
 
 /// A one-channel 8-bit picture; 255 = selected (128 marks occluded pixels in Middlebury's masks). A mask that selects
 /// nothing is refused.
 [[nodiscard]] pixel_mask read_mask(const std::filesystem::path& path);
 
-/// PFM, one channel ("Pf"), either byte order, plain values: infinities and NaN as they stand in the file. `name` is for
-/// messages.
+/// PFM, one channel ("Pf"), either byte order, plain values: infinities and NaN as they stand in the file. `name` is
+/// for messages.
 [[nodiscard]] real_map parse_pfm(std::string_view bytes, const std::string& name);
 
 /// Little-endian PFM of a map whose undefined pixels become +infinity.

@@ -1,16 +1,14 @@
 // The `epiline` command: matches stereo pairs with any engine, compares engines, and measures.
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <exception>
 
 #ifdef EPILINE_HAS_COSIM
 #include "cosim/engines.hpp"
 #endif
-#ifdef EPILINE_HAS_CSIM
 #include "csim/engines.hpp"
-#endif
 #include "eval/commands.hpp"
 #include "golden/engines.hpp"
 
@@ -29,9 +27,7 @@ int main(int argc, char** argv) {
   try {
     epiline::eval::engine_registry registry;
     epiline::golden::register_engines(registry);
-#ifdef EPILINE_HAS_CSIM
     epiline::csim::register_engines(registry);
-#endif
 #ifdef EPILINE_HAS_COSIM
     epiline::cosim::register_engines(registry);
 #endif

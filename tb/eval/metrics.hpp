@@ -11,27 +11,27 @@ namespace epiline::eval {
 
 /// Counts over one set of pixels whose truth is known.
 struct accuracy_counts {
-  std::uint64_t known = 0;            // pixels of the set
-  std::uint64_t defined = 0;          // of these, with a disparity
-  std::uint64_t correct = 0;          // defined and |d - truth| <= 1
-  std::uint64_t bad_half = 0;         // defined and |d - truth| > 0.5
-  std::uint64_t bad_one = 0;          // > 1
-  std::uint64_t bad_two = 0;          // > 2
-  double error_sum = 0;               // of |d - truth| over the defined pixels
+  std::uint64_t known = 0;     // pixels of the set
+  std::uint64_t defined = 0;   // of these, with a disparity
+  std::uint64_t correct = 0;   // defined and |d - truth| <= 1
+  std::uint64_t bad_half = 0;  // defined and |d - truth| > 0.5
+  std::uint64_t bad_one = 0;   // > 1
+  std::uint64_t bad_two = 0;   // > 2
+  double error_sum = 0;        // of |d - truth| over the defined pixels
 
   /// Shares in per cent; 0 when there is nothing to take a share of.
-  [[nodiscard]] double coverage() const;                // defined / known
-  [[nodiscard]] double accuracy() const;                // correct / defined
-  [[nodiscard]] double bad_half_share() const;          // bad_half / defined
-  [[nodiscard]] double bad_one_share() const;           // bad_one / defined
-  [[nodiscard]] double bad_two_share() const;           // bad_two / defined
-  [[nodiscard]] double bad_one_undefined_share() const; // (bad_one + undefined) / known
-  [[nodiscard]] double average_error() const;           // in pixels
+  [[nodiscard]] double coverage() const;                 // defined / known
+  [[nodiscard]] double accuracy() const;                 // correct / defined
+  [[nodiscard]] double bad_half_share() const;           // bad_half / defined
+  [[nodiscard]] double bad_one_share() const;            // bad_one / defined
+  [[nodiscard]] double bad_two_share() const;            // bad_two / defined
+  [[nodiscard]] double bad_one_undefined_share() const;  // (bad_one + undefined) / known
+  [[nodiscard]] double average_error() const;            // in pixels
 };
 
 struct map_figures {
-  std::uint64_t pixels = 0;   // of the whole map
-  std::uint64_t defined = 0;  // of the whole map
+  std::uint64_t pixels = 0;                     // of the whole map
+  std::uint64_t defined = 0;                    // of the whole map
   std::optional<accuracy_counts> all;           // with truth
   std::optional<accuracy_counts> non_occluded;  // with truth and a mask of non-occluded pixels
 

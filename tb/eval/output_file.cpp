@@ -62,7 +62,7 @@ class temporary_file {
   void write_and_rename(std::string_view contents) {
     write_all(descriptor_, contents, target_);
     // mkstemp makes a private file; give it the mode an ordinary new file would have, or the one it replaces.
-    struct stat existing {};
+    struct stat existing{};
     const mode_t mask = ::umask(0);
     ::umask(mask);
     const mode_t mode = ::stat(target_.c_str(), &existing) == 0 ? existing.st_mode & 0777 : 0666 & ~mask;

@@ -17,8 +17,8 @@ class file_error : public std::runtime_error {
 /// computation whose result goes to `path`.
 void require_writable(const std::filesystem::path& path);
 
-/// Writes `contents` to a temporary file beside `path` and renames it, so that `path` holds either what it held before or
-/// all of `contents`. Links are followed; what is not a regular file (a pipe, /dev/stdout) is written directly.
+/// Writes `contents` to a temporary file beside `path` and renames it, so that `path` holds either what it held before
+/// or all of `contents`. Links are followed; what is not a regular file (a pipe, /dev/stdout) is written directly.
 /// Throws file_error.
 void write_whole_file(const std::filesystem::path& path, std::string_view contents);
 

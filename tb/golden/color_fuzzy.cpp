@@ -35,7 +35,8 @@ cost_plane window_sum(const cost_plane& values) {
   return sum;
 }
 
-// ---- the default rule base -------------------------------------------------------------------------------------------
+// ---- the default rule base
+// -------------------------------------------------------------------------------------------
 
 enum label : std::uint8_t { same, near, far };
 enum class output_set : std::uint8_t { centre, neighbours, undefined };

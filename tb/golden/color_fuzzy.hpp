@@ -3,7 +3,6 @@
 // equations, with no regard for hardware. It shares no code with hls/ and includes nothing from it.
 
 #include <Eigen/Core>
-
 #include <cstdint>
 
 namespace epiline::golden {
