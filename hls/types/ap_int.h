@@ -214,9 +214,11 @@ class ap_int_base : public detail::bool_conversion<ap_int_base<W, S>, (W > 64)> 
 
   // Bits and ranges. Bit 0 is the lowest.
   constexpr ap_bit_ref<ap_int_base> operator[](int index) { return ap_bit_ref<ap_int_base>(*this, index); }
-  constexpr bool operator[](int index) const { return test(index); }
+  constexpr ap_bit_ref<const ap_int_base> operator[](int index) const {
+    return ap_bit_ref<const ap_int_base>(*this, index);
+  }
   constexpr ap_bit_ref<ap_int_base> bit(int index) { return (*this)[index]; }
-  constexpr bool bit(int index) const { return test(index); }
+  constexpr ap_bit_ref<const ap_int_base> bit(int index) const { return (*this)[index]; }
   /// Bits low..high as an unsigned pattern; with high < low the bits high..low in reverse order.
   constexpr ap_range_ref<ap_int_base> range(int high, int low) { return ap_range_ref<ap_int_base>(*this, high, low); }
   constexpr ap_range_ref<const ap_int_base> range(int high, int low) const {

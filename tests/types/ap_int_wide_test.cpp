@@ -203,12 +203,9 @@ void check_widths(int repetitions) {
 TEST(ap_int_wide, thirty_three_bits) { check_widths<33, 31>(2000); }
 TEST(ap_int_wide, one_word) { check_widths<64, 64>(2000); }
 TEST(ap_int_wide, one_word_and_a_bit) { check_widths<65, 13>(2000); }
-TEST(ap_int_wide, two_words) { check_widths<128, 127>(2000); }
+TEST(ap_int_wide, two_words) { check_widths<128, 100>(2000); }
 TEST(ap_int_wide, two_words_and_a_bit) { check_widths<129, 65>(1000); }
 TEST(ap_int_wide, narrow_with_wide) { check_widths<40, 300>(1000); }
-#ifndef __SYNTHESIS__
-// Only natively: clang takes a minute to expand a division of this width for the host.
 TEST(ap_int_wide, two_thousand_bits) { check_widths<2048, 2047>(20); }
-#endif
 
 }  // namespace

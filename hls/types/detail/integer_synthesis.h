@@ -15,14 +15,22 @@
 
 namespace epiline::ap::backend {
 
+// Two exceptions to the exact width. `_BitInt(1)` does not exist: values of ap_int<1> (0 and -1) are computed in two
+// bits and stored in one. And clang 19 returns a _BitInt of 65 to 127 bits through a stack slot of just that many bits,
+// which LLVM cannot promote to a value: such values are computed in 128 bits, always sign- or zero-extended.
+template <int W, bool S>
+constexpr int raw_bits() {
+  if (W == 1 && S) return 2;
+  return W > 64 && W < 128 ? 128 : W;
+}
+
 template <int W, bool S>
 struct raw_of {
-  using type = unsigned _BitInt(W);
+  using type = unsigned _BitInt(raw_bits<W, S>());
 };
-// `_BitInt(1)` does not exist: values of ap_int<1> (0 and -1) are computed in two bits and stored in one.
 template <int W>
 struct raw_of<W, true> {
-  using type = _BitInt(W < 2 ? 2 : W);
+  using type = _BitInt(raw_bits<W, true>());
 };
 
 /// The type values of ap_int_base<W, S> are computed in.
@@ -40,8 +48,10 @@ template <int W, bool S, class R>
 constexpr raw<W, S> wrap(R v) {
   if constexpr (W == 1 && S) {
     return static_cast<raw<1, true>>(-static_cast<raw<2, true>>(static_cast<raw<1, false>>(v)));
+  } else if constexpr (S) {
+    return static_cast<raw<W, S>>(static_cast<_BitInt(W)>(v));
   } else {
-    return static_cast<raw<W, S>>(v);
+    return static_cast<raw<W, S>>(static_cast<unsigned _BitInt(W)>(v));
   }
 }
 
@@ -52,15 +62,15 @@ constexpr T to_c(R v) {
 }
 
 /// What an object of ap_int_base<W, S> holds. The zero-length array costs nothing and carries width and sign into the
-/// LLVM type of every token: { iN, [0 x [W x i8]] } if unsigned, { iN, [0 x [W x i16]] } if signed. Packed, so that it
-/// does not raise the alignment: padding in an LLVM struct looks like a member.
+/// LLVM type of every token: <{ iN, [0 x [W x i8]] }> if unsigned, <{ iN, [0 x [W x i16]] }> if signed, where iN is the
+/// memory type of the value ([n x i8] above 128 bits). Packed: with an alignment of one byte, structs of such values
+/// have no padding, which in an LLVM type would look like members.
 template <int W, bool S>
 struct storage {
-  using value_type = raw<W, S && (W > 1)>;
-  value_type value;
+  unsigned _BitInt(W) value __attribute__((packed));
   std::conditional_t<S, short, char> width_tag[0][W] __attribute__((packed));
   storage() = default;
-  constexpr explicit storage(raw<W, S> v) : value(static_cast<value_type>(v)), width_tag{} {}
+  constexpr explicit storage(raw<W, S> v) : value(static_cast<unsigned _BitInt(W)>(v)), width_tag{} {}
   constexpr raw<W, S> load() const { return wrap<W, S>(value); }
 };
 
@@ -70,7 +80,7 @@ constexpr raw<W, false> reverse_bits(raw<W, false> v) {
   if constexpr (W == 1) {
     return v;
   } else {
-    return __builtin_elementwise_bitreverse(v);
+    return __builtin_elementwise_bitreverse(static_cast<unsigned _BitInt(W)>(v));
   }
 }
 
