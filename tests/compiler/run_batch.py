@@ -138,7 +138,7 @@ class Batch:
                 return name
             text = (run.stderr + run.stdout).strip()
             # A period that is too short: the compiler says which one would do, and that one has to do.
-            smallest = re.search(r"smallest (?:clock )?period[^0-9]*([0-9.]+) ?ns", text)
+            smallest = re.search(r"smallest period possible[^:]*: ([0-9.]+) ns", text)
             if attempt == 1 or not smallest or not self.options.retry_period:
                 break
             period = smallest.group(1)

@@ -2,6 +2,6 @@
 
 void inline_assembly(hls::stream<int>& in, hls::stream<int>& out) {
   int x = in.read();
-  asm volatile("nop" : "+r"(x));  // refused: asm
+  asm volatile("nop" : "+r"(x));  // refused: asm|assembl
   out.write(x);
 }

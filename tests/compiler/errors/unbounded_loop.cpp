@@ -1,11 +1,11 @@
 #include "ap_int.h"
 #include "hls_stream.h"
 
-// A loop that runs for ever and does nothing anyone could see.
+// A loop without an end and without a stream: the second token would never be read.
 void unbounded_loop(hls::stream<ap_uint<8>>& in, hls::stream<ap_uint<8>>& out) {
-  ap_uint<8> x = in.read();
-  while (x != 0) {  // refused: loop
-    x = x;
+  static ap_uint<32> total = 0;
+  out.write(in.read());
+  for (;;) {  // refused: loop
+    total += 3;  // refused: loop
   }
-  out.write(x);
 }

@@ -9,7 +9,7 @@ struct summary_t {
   ap_uint<4> low_zeros;  // at most 15
 };
 
-void priority(hls::stream<ap_uint<16> >& word, hls::stream<summary_t>& summary) {
+void priority_encoder(hls::stream<ap_uint<16> >& word, hls::stream<summary_t>& summary) {
 #pragma HLS PIPELINE II=1
   const ap_uint<16> w = word.read();
   summary_t s;
