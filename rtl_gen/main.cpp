@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -27,7 +28,7 @@ using namespace epiline;
 struct command_line {
   frontend::source_options source;
   std::string target = "ecp5";
-  std::string clock = "6ns";
+  std::string clock;  // empty: default_period, or the smallest possible when that is larger
   std::string interval = "1";
   std::string scheduler = "optimal";
   std::uint64_t seed = 1;
@@ -36,6 +37,10 @@ struct command_line {
   bool quiet = false;
 };
 
+/// Writes that a read-modify-write through a block RAM has in flight: they are forwarded.
+constexpr unsigned block_memory_latency = 2;
+constexpr double default_period = 6.0;  // nanoseconds
+
 class usage_error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -43,6 +48,7 @@ class usage_error : public std::runtime_error {
 
 /// "6ns", "6.5", "166MHz" as a period in nanoseconds.
 double parse_clock(const std::string& text) {
+  if (text.empty()) return default_period;
   std::size_t end = 0;
   double value = 0;
   try {
@@ -107,8 +113,13 @@ schedule::result find_schedule(const dataflow::graph& graph, const schedule::del
     try {
       return given.scheduler == "random" ? schedule::make_random_schedule(graph, model, options, given.seed)
                                          : schedule::make_schedule(graph, model, options);
-    } catch (const schedule::infeasible&) {
-      if (options.initiation_interval >= largest) throw;
+    } catch (const schedule::infeasible& refusal) {
+      if (options.initiation_interval < largest) continue;
+      if (!given.clock.empty() || options.period != period || !std::isfinite(refusal.smallest_period())) throw;
+      std::cerr << fmt::format("note: {:.2f} ns cannot be reached; made for {:.2f} ns, the smallest period possible. The reason:\n{}\n",
+                               period, refusal.smallest_period(), refusal.what());
+      options.period = refusal.smallest_period();
+      --options.initiation_interval;
     }
   }
 }
@@ -145,7 +156,7 @@ void run(const command_line& given) {
   dataflow::graph graph = frontend::build_graph(process, given.source.top.substr(given.source.top.rfind(':') + 1));
   const double frontend_seconds = watch.lap();
 
-  const std::vector<passes::pass_report> pass_log = passes::run_default_pipeline(graph);
+  const std::vector<passes::pass_report> pass_log = passes::run_default_pipeline(graph, {.forwarded_writes = block_memory_latency});
   if (const std::string violation = dataflow::find_violation(graph); !violation.empty())
     throw std::logic_error("the passes made an ill-formed graph: " + violation);
   const double pass_seconds = watch.lap();
@@ -168,7 +179,7 @@ void run(const command_line& given) {
         "{}: {} operations, {} stages at {:.2f} ns, one iteration every {} clock{}\n"
         "  C++ to graph {:.1f} s, passes {:.1f} s, schedule {:.1f} s, Verilog and reports {:.1f} s\n"
         "  {}/{}.v, {}.graph, report.json, report.txt\n",
-        graph.name, graph.nodes.size(), schedule.depth, period, schedule.initiation_interval,
+        graph.name, graph.nodes.size(), schedule.depth, schedule.period, schedule.initiation_interval,
         schedule.initiation_interval == 1 ? "" : "s", frontend_seconds, pass_seconds, schedule_seconds, watch.lap(), given.output,
         graph.name, graph.name);
 }
@@ -184,7 +195,7 @@ int main(int argc, char** argv) {
   app.add_option("--top", given.source.top, "the top function's name")->required();
   app.add_option("-o,--output", given.output, "folder for NAME.v, NAME.graph, report.json and report.txt")->required();
   app.add_option("--target", given.target, "device whose delays and memories are assumed: ecp5, hx8k, generic")->capture_default_str();
-  app.add_option("--clock", given.clock, "period (6ns) or frequency (150MHz) to reach")->capture_default_str();
+  app.add_option("--clock", given.clock, "period (6ns) or frequency (150MHz) to reach; without it 6ns, or the smallest period possible");
   app.add_option("-I", given.source.includes, "folder to search for headers")->allow_extra_args(false);
   app.add_option("-D", given.source.definitions, "macro, NAME or NAME=VALUE")->allow_extra_args(false);
   app.add_option("--ii", given.interval, "clocks from one iteration to the next: a number, or auto for the fewest possible")->capture_default_str();

@@ -38,6 +38,7 @@ bool is_port_access(const llvm::Instruction& instruction) {
 struct loop_marks {
   std::set<const llvm::BasicBlock*> pipelined;
   std::set<const llvm::BasicBlock*> unrolled;
+  bool whole_function = false;  // one call is one iteration: its constant loops are unrolled
   unsigned initiation_interval = 1;
 };
 
@@ -54,6 +55,7 @@ loop_marks take_pragmas(llvm::Function& function, const llvm::LoopInfo& loops) {
     const bool pipeline = call->getCalledFunction()->getName() == "__epiline_pragma_pipeline";
     // The outermost loop is the one that calls the top for ever: a pragma there is about the function as a whole.
     if (loop != nullptr && loop->getLoopDepth() > 1) (pipeline ? marks.pipelined : marks.unrolled).insert(loop->getHeader());
+    else if (pipeline) marks.whole_function = true;
     if (pipeline) {
       if (auto* interval = llvm::dyn_cast<llvm::ConstantInt>(call->getArgOperand(0)))
         marks.initiation_interval = std::max(marks.initiation_interval, static_cast<unsigned>(interval->getZExtValue()));
@@ -76,7 +78,7 @@ class unroller {
   unsigned run() {
     marks_ = take_pragmas(function_, loops_);
     // Outer loops decide for inner ones, inner loops are unrolled first.
-    for (llvm::Loop* loop : loops_) decide(*loop, false);
+    for (llvm::Loop* loop : loops_) decide(*loop, marks_.whole_function);
     const llvm::SmallVector<llvm::Loop*, 4> order = loops_.getLoopsInPreorder();
     for (auto loop = order.rbegin(); loop != order.rend(); ++loop)
       if (chosen_.count((*loop)->getHeader()) != 0) unroll(**loop);

@@ -348,6 +348,8 @@ lowered_process lower(compiled_source& source, const source_options& options) {
   managers.function.invalidate(process, llvm::PreservedAnalyses::none());
   run_passes(process, managers, early_cleanup());
 
+  rotate_loops(process, managers.function);  // makes trip counts exact
+  managers.function.invalidate(process, llvm::PreservedAnalyses::none());
   result.initiation_interval = unroll_loops(process, managers.function);
   managers.function.invalidate(process, llvm::PreservedAnalyses::none());
   expand_copies(process, unknown_types::refused);
