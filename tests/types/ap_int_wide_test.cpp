@@ -9,6 +9,7 @@
 
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -64,9 +65,36 @@ APInt next_value(std::mt19937_64& random, int width) {
   return random() % 2 != 0 ? v : v.lshr(static_cast<unsigned>(random() % w));
 }
 
+// What a checker does that depends on no type: one EXPECT for every check in every instantiation would take minutes to
+// compile.
+class reporter {
+ protected:
+  explicit reporter(std::string types) : types_(std::move(types)) {}
+
+  void compare(const char* operation, const APInt& actual, const APInt& expected) const {
+    EXPECT_EQ(actual, expected) << text(a_) << " " << operation << " " << text(b_) << ": " << text(actual) << ", "
+                                << types_;
+  }
+  void expect(const char* operation, long long actual, long long expected) const {
+    EXPECT_EQ(actual, expected) << text(a_) << " " << operation << " " << text(b_) << ", " << types_;
+  }
+
+  APInt a_{1, 0};
+  APInt b_{1, 0};
+
+ private:
+  std::string types_;
+};
+
+std::string type_name(int width, bool is_signed) {
+  return (is_signed ? "ap_int<" : "ap_uint<") + std::to_string(width) + ">";
+}
+
 template <int W, bool S, int W2, bool S2>
-class checker {
+class checker : reporter {
  public:
+  checker() : reporter(type_name(W, S) + " and " + type_name(W2, S2)) {}
+
   void run(int repetitions) {
     std::mt19937_64 random(static_cast<std::uint64_t>(W * 131071 + W2 * 31 + S * 2 + S2));
     for (int i = 0; i < repetitions && !::testing::Test::HasFailure(); ++i) {
@@ -81,16 +109,10 @@ class checker {
   }
 
  private:
+  using reporter::expect;
   template <int R, bool RS>
   void expect(const char* operation, const ap_int_base<R, RS>& actual, const APInt& expected) const {
-    const APInt bits = bits_of(actual);
-    EXPECT_EQ(bits, extended(expected, true, R))
-        << text(a_) << " " << operation << " " << text(b_) << ": " << text(bits) << ", widths " << W << ", " << W2
-        << ", signs " << S << ", " << S2;
-  }
-  void expect(const char* operation, bool actual, bool expected) const {
-    EXPECT_EQ(actual, expected) << text(a_) << " " << operation << " " << text(b_) << ", widths " << W << ", " << W2
-                                << ", signs " << S << ", " << S2;
+    compare(operation, bits_of(actual), extended(expected, true, R));
   }
 
   void check_pair() {
@@ -131,14 +153,14 @@ class checker {
   void check_left(int i, int j) {
     expect("unary -", -x_, -extended(a_, S, W + 1));
     expect("~", ~x_, ~a_);
-    EXPECT_EQ(static_cast<bool>(x_), !a_.isZero());
-    EXPECT_EQ(x_.sign(), S && a_.isNegative());
-    EXPECT_EQ(x_.to_int64(), static_cast<long long>(extended(a_, S, 64).getZExtValue()));
-    EXPECT_EQ(x_.and_reduce(), a_.isAllOnes());
-    EXPECT_EQ(x_.xor_reduce(), a_.popcount() % 2 != 0);
-    EXPECT_EQ(x_.countLeadingZeros(), static_cast<int>(a_.countl_zero()));
+    expect("bool", static_cast<bool>(x_), !a_.isZero());
+    expect("sign", x_.sign(), S && a_.isNegative());
+    expect("to_int64", x_.to_int64(), static_cast<long long>(extended(a_, S, 64).getZExtValue()));
+    expect("and_reduce", x_.and_reduce(), a_.isAllOnes());
+    expect("xor_reduce", x_.xor_reduce(), a_.popcount() % 2 != 0);
+    expect("countLeadingZeros", x_.countLeadingZeros(), static_cast<int>(a_.countl_zero()));
     const auto ui = static_cast<unsigned>(i);
-    EXPECT_EQ(x_[i], a_[ui]);
+    expect("[i]", x_[i], a_[ui]);
     auto z = x_;
     APInt flipped = a_;
     flipped.flipBit(ui);
@@ -186,8 +208,6 @@ class checker {
     expect("<< ap_int", x_ << ap_int<13>(-amount), shifted_right);
   }
 
-  APInt a_{1, 0};
-  APInt b_{1, 0};
   ap_int_base<W, S> x_;
   ap_int_base<W2, S2> y_;
 };

@@ -2,8 +2,6 @@
 // Back end of ap_int.h for the synthesis build (clang with -D__SYNTHESIS__): every value is a `_BitInt` of its exact
 // width, so that the LLVM IR consists of iN operations and nothing else. detail/integer_native.h is its twin and
 // declares the same names; ap_int.h includes exactly one of them.
-//
-// No local variable of such a type may be `const`: clang 19 crashes on const locals of more than 128 bits.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,21 +14,19 @@
 namespace epiline::ap::backend {
 
 // Two exceptions to the exact width. `_BitInt(1)` does not exist: values of ap_int<1> (0 and -1) are computed in two
-// bits and stored in one. And clang 19 returns a _BitInt of 65 to 127 bits through a stack slot of just that many bits,
-// which LLVM cannot promote to a value: such values are computed in 128 bits, always sign- or zero-extended.
-template <int W, bool S>
-constexpr int raw_bits() {
-  if (W == 1 && S) return 2;
-  return W > 64 && W < 128 ? 128 : W;
-}
+// bits and stored in one. And above 64 bits, clang 19 keeps a _BitInt in memory as bytes, and returns it through a
+// stack slot of just its bits, neither of which LLVM promotes to a value, unless its width is a multiple of 128: such
+// values live in the next multiple, always sign- or zero-extended, and passes over known bits find the exact width
+// again.
+constexpr int container_bits(int width) { return width <= 64 ? width : (width + 127) / 128 * 128; }
 
 template <int W, bool S>
 struct raw_of {
-  using type = unsigned _BitInt(raw_bits<W, S>());
+  using type = unsigned _BitInt(container_bits(W));
 };
 template <int W>
 struct raw_of<W, true> {
-  using type = _BitInt(raw_bits<W, true>());
+  using type = _BitInt(W == 1 ? 2 : container_bits(W));
 };
 
 /// The type values of ap_int_base<W, S> are computed in.
@@ -63,14 +59,14 @@ constexpr T to_c(R v) {
 
 /// What an object of ap_int_base<W, S> holds. The zero-length array costs nothing and carries width and sign into the
 /// LLVM type of every token: <{ iN, [0 x [W x i8]] }> if unsigned, <{ iN, [0 x [W x i16]] }> if signed, where iN is the
-/// memory type of the value ([n x i8] above 128 bits). Packed: with an alignment of one byte, structs of such values
+/// memory type of the value, wide enough for W bits. Packed: with an alignment of one byte, structs of such values
 /// have no padding, which in an LLVM type would look like members.
 template <int W, bool S>
 struct storage {
-  unsigned _BitInt(W) value __attribute__((packed));
+  raw<W, false> value __attribute__((packed));
   std::conditional_t<S, short, char> width_tag[0][W] __attribute__((packed));
   storage() = default;
-  constexpr explicit storage(raw<W, S> v) : value(static_cast<unsigned _BitInt(W)>(v)), width_tag{} {}
+  constexpr explicit storage(raw<W, S> v) : value(wrap<W, false>(v)), width_tag{} {}
   constexpr raw<W, S> load() const { return wrap<W, S>(value); }
 };
 
