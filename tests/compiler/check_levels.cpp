@@ -3,7 +3,8 @@
 //   compiler_check_levels TOKENS RTL [MODELS.so] NAME...
 //
 // for every NAME: TOKENS/NAME.tokens against RTL/NAME/NAME.graph and, with MODELS.so (written by run_batch.py), the
-// Verilator model of RTL/NAME/NAME.v. Prints one line a failure: "NAME: graph: ..." or "NAME: RTL: ..."; exit code 1.
+// Verilator model of RTL/NAME/NAME.v. Prints "NAME: iterations: N" of the graph, and one line a failure,
+// "NAME: graph: ..." or "NAME: RTL: ..."; exit code 1 if there was one.
 
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -61,6 +62,7 @@ int main(int argc, char** argv) {
       const std::vector<test::recorded_port> recorded = test::read_token_file(tokens / (name + ".tokens"));
       const test::graph_verdict graph =
           test::check_graph(epiline::dataflow::parse(read_file(rtl / name / (name + ".graph"))), recorded);
+      fmt::print("{}: iterations: {}\n", name, graph.iterations);
       if (!graph.difference.empty()) {
         fmt::print("{}: graph: {}\n", name, graph.difference);
         good = false;

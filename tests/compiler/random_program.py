@@ -795,13 +795,18 @@ class Generator:
             self.iteration(inputs, outputs, conditional_inputs, results, last=True)
             self.emit("} while (!last);" if form == "do" else "}")
         elif shape == "phases":
-            for phase in range(r.randint(2, 3)):
+            phases = r.randint(2, 3)
+            unwritten = list(outputs)
+            for phase in range(phases):
                 visible = len(self.scope)
                 self.emit(f"for (int i = 0; i < {r.choice([2, 3, 5, 8, 17, 20])}; ++i) {{")
                 self.loop_pragma()
                 # Each phase reads its own part of the inputs and writes its own part of the outputs.
                 here = inputs if phase == 0 else [p for p in inputs if r.random() < 0.6]
                 there = [p for p in outputs if r.random() < 0.6] or [r.choice(outputs)]
+                unwritten = [p for p in unwritten if p not in there]
+                if phase + 1 == phases:
+                    there += unwritten
                 self.iteration(here, there, here[1:], results, counter="i", counter_type="int", phase=phase)
                 self.emit("}")
                 del self.scope[visible:]
@@ -960,7 +965,7 @@ class Generator:
             if port in conditional and r.random() < 0.6:
                 condition = self.cheap_condition()
                 if data_dependent and port is not inputs[0]:
-                    condition = self.compare(1).text
+                    condition = f"{self.compare(1).text} || tick == {r.randint(0, 3)}"
                 style = r.random()
                 members = self.members(port, token)
                 values = []
@@ -1063,7 +1068,8 @@ class Generator:
         condition = None
         pick = r.random()
         if pick < 0.2:
-            condition = self.condition(2).text
+            # never always false: a port that is never written is refused
+            condition = f"{self.condition(2).text} || tick == {r.randint(0, 3)}"
         elif pick < 0.4:
             condition = self.cheap_condition()
         if condition:

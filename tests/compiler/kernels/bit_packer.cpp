@@ -1,6 +1,7 @@
 // Packs variable-length codes (length 0..12) into 16-bit words, first bit on top; a length of 15 flushes.
 // The recurrence holds a barrel shifter, so it needs a slower clock than the default.
 // epiline-hls: --clock 20ns
+// one iteration a token of codes
 #include "ap_int.h"
 #include "hls_stream.h"
 

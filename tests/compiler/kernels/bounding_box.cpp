@@ -1,4 +1,5 @@
 // Threshold of an image of run-time size; the bounding box of the pixels above it comes back through references.
+// one iteration a token of in
 #include "ap_axi_sdata.h"
 #include "ap_int.h"
 #include "hls_stream.h"

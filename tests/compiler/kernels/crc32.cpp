@@ -1,4 +1,5 @@
 // CRC-32 (IEEE 802.3) of a byte stream; every packet, ended by `last`, gives one checksum.
+// one iteration a token of data
 #include <ap_axi_sdata.h>
 #include <ap_int.h>
 #include <hls_stream.h>

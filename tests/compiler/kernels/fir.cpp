@@ -1,4 +1,5 @@
 // A transposed-form FIR filter of 16 taps with signed coefficients: every sample costs one clock whatever the tap count.
+// one iteration a token of x
 #include "ap_int.h"
 #include "hls_stream.h"
 

@@ -1,4 +1,5 @@
 // Running minimum and maximum of blocks of run-time length, positions too; totals by reference.
+// one iteration a token of in
 #include "ap_int.h"
 #include "hls_stream.h"
 

@@ -1,4 +1,5 @@
 // Moving average of the last 32 samples with a circular buffer and a running sum; free running, one sample a call.
+// one iteration a token of din
 #include "ap_int.h"
 #include "hls_stream.h"
 

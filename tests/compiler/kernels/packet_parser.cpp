@@ -1,5 +1,6 @@
 // Parser of length-prefixed packets: 0x55, kind, length, payload, check byte (sum of kind, length and payload).
 // The payload goes out as it comes; after the check byte one verdict goes out on another stream.
+// one iteration a token of in
 #include "ap_int.h"
 #include "hls_stream.h"
 

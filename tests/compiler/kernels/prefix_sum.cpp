@@ -1,4 +1,5 @@
 // Prefix sums of signed packets; the sum starts anew after `last`. Sidebands pass through.
+// one iteration a token of s
 #include "ap_axi_sdata.h"
 #include "ap_int.h"
 #include "hls_stream.h"

@@ -1,4 +1,5 @@
 // Leading one, population count and parity of a word: loops with break, a while loop with a bound, a do/while.
+// one iteration a token of word
 #include "ap_int.h"
 #include "hls_stream.h"
 

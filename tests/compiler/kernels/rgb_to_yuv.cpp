@@ -1,4 +1,5 @@
 // 8-bit RGB to YUV (BT.601, studio range) with rounding; struct payloads with constructors, template helpers.
+// one iteration a token of yuv
 #include "ap_int.h"
 #include "hls_stream.h"
 

@@ -1,4 +1,5 @@
 // Routes beats to three outputs by destination; broken destinations are counted, the count comes out with every packet's end.
+// one iteration a token of in
 #include "ap_axi_sdata.h"
 #include "ap_int.h"
 #include "hls_stream.h"

@@ -1,4 +1,5 @@
 // Self-synchronous scrambler x^58 + x^39 + 1 of 64-bit words (as in 10GBASE-R): 64 steps a clock, headers untouched.
+// one iteration a token of plain
 #include "ap_int.h"
 #include "hls_stream.h"
 

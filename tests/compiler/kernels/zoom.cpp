@@ -1,4 +1,5 @@
 // Enlarges an image of run-time size by a run-time whole factor: every pixel is read once, lines repeat from a buffer.
+// one iteration a token of out
 #include "ap_int.h"
 #include "hls_stream.h"
 
