@@ -83,7 +83,7 @@ struct interpreter::translator {
   void place_fixed_values() {
     where.resize(g.nodes.size(), location{none, 0});
     for (const register_state& r : g.registers)
-      t.registers_.push_back({r.name, place_of(g, r.where), allocate(r.width), {}, 0, r.patient, 0, r.initial});
+      t.registers_.push_back({r.name, place_of(g, r.where), allocate(r.width), r.initial});
     for (node_id id = 0; id < g.nodes.size(); ++id) {
       const node& n = g.nodes[id];
       if (n.kind == operation::register_value) where[id] = t.registers_[n.object].value;
@@ -271,12 +271,12 @@ struct interpreter::translator {
         t.late_writes_.push_back(access_of(id));
     }
     for (register_id id = 0; id < g.registers.size(); ++id) {
-      register_info& r = t.registers_[id];
-      r.next = {where[g.registers[id].next].offset, r.value.width};
-      r.enable = offset(g.registers[id].enable);
-      r.staged = static_cast<std::uint32_t>(t.staged_.size());
-      t.staged_.resize(t.staged_.size() + words_for(r.value.width));
-      t.any_patient_ |= r.patient;
+      const location& value = t.registers_[id].value;
+      const register_update update{value.offset, offset(g.registers[id].next), offset(g.registers[id].enable),
+                                   words_for(value.width)};
+      (update.words == 1 ? t.narrow_updates_ : t.wide_updates_).push_back(update);
+      if (g.registers[id].patient) t.patient_registers_.emplace_back(id, update.enable);
+      t.staged_.resize(t.staged_.size() + update.words);
     }
     if (g.patient != none) t.patient_ = offset(g.patient);
   }
@@ -338,7 +338,7 @@ outcome interpreter::step() {
     roll_back();
     return broken_.empty() ? outcome::blocked : outcome::broken_promise;
   }
-  if (any_patient_ && !check_patience()) {
+  if (!patient_registers_.empty() && !check_patience()) {
     roll_back();
     return outcome::broken_promise;
   }
@@ -494,8 +494,7 @@ void interpreter::execute_wide(const wide_instruction& w) {
     }
     case operation::slice:
       for (unsigned done = 0; done < w.result.width; done += word_bits)
-        result[done / word_bits] =
-            extract(operand(0), w.low + done, std::min(word_bits, w.result.width - done));
+        result[done / word_bits] = extract(operand(0), w.low + done, std::min(word_bits, w.result.width - done));
       return;
     case operation::select:
       std::copy_n(operand(v[w.operands[0].offset] != 0 ? 1 : 2), size, result);
@@ -604,8 +603,9 @@ void interpreter::execute_memory_write(const memory_access& access, bool undoabl
 
 bool interpreter::check_patience() {
   if (patient_ != none && values_[patient_] != 0) return true;
-  for (const register_info& r : registers_) {
-    if (!r.patient || values_[r.enable] == 0) continue;
+  for (const auto& [id, enable] : patient_registers_) {
+    if (values_[enable] == 0) continue;
+    const register_info& r = registers_[id];
     broken_ = fmt::format("iteration {}: patient register '{}'{} is updated in an iteration that is not marked patient",
                           iterations_, r.name, r.place);
     return false;
@@ -640,12 +640,16 @@ void interpreter::commit() {
   }
   // All at once: a register's next value may be another register's old one.
   word* const v = values_.data();
-  for (const register_info& r : registers_) {
-    const std::uint32_t source = v[r.enable] != 0 ? r.next.offset : r.value.offset;
-    std::copy_n(v + source, words_for(r.value.width), &staged_[r.staged]);
+  word* staged = staged_.data();
+  for (const register_update& r : narrow_updates_) *staged++ = v[v[r.enable] != 0 ? r.next : r.value];
+  for (const register_update& r : wide_updates_)
+    staged = std::copy_n(v + (v[r.enable] != 0 ? r.next : r.value), r.words, staged);
+  const word* from = staged_.data();
+  for (const register_update& r : narrow_updates_) v[r.value] = *from++;
+  for (const register_update& r : wide_updates_) {
+    std::copy_n(from, r.words, v + r.value);
+    from += r.words;
   }
-  for (const register_info& r : registers_)
-    std::copy_n(&staged_[r.staged], words_for(r.value.width), v + r.value.offset);
   ++iterations_;
 }
 

@@ -18,6 +18,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "dataflow/graph.hpp"
@@ -173,11 +174,11 @@ class interpreter {
   struct register_info {
     std::string name;
     std::string place;
-    location value, next;
-    std::uint32_t enable;
-    bool patient;
-    std::uint32_t staged;  // offset in staged_ of its next value
+    location value;
     std::optional<llvm::APInt> initial;
+  };
+  struct register_update {  // offsets of its value, next value and enable
+    std::uint32_t value, next, enable, words;
   };
   struct undo_entry {
     memory_id memory;
@@ -208,13 +209,14 @@ class interpreter {
   std::vector<memory_access> late_writes_;      // no read of the same iteration follows them: done at its end
   std::vector<port_access> reads_, writes_;
   std::vector<register_info> registers_;
-  std::vector<std::uint64_t> staged_;
+  std::vector<register_update> narrow_updates_, wide_updates_;  // of one word, of more
+  std::vector<std::uint64_t> staged_;                           // next values, while the old ones are still read
+  std::vector<std::pair<register_id, std::uint32_t>> patient_registers_;  // and their enables
   std::vector<memory_state> memories_;
   std::vector<table_state> tables_;
   std::vector<port_state> ports_;
   std::vector<queue> queues_;
   std::uint32_t patient_ = none;  // offset of the patient node's value
-  bool any_patient_ = false;
 
   std::vector<undo_entry> undo_;
   std::vector<std::uint64_t> undo_words_;
