@@ -85,8 +85,8 @@ void plan_memories(const graph& g, const schedule::delay_model& model, const sch
   for (memory_plan& memory : p.memories) {
     for (std::size_t i = 0; i < memory.writes.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
-        memory.exclusive_writes &= is_exclusive(g, g.nodes[memory.writes[i]].operands[2],
-                                                g.nodes[memory.writes[j]].operands[2]);
+        memory.exclusive_writes &=
+            is_exclusive(g, g.nodes[memory.writes[i]].operands[2], g.nodes[memory.writes[j]].operands[2]);
       }
       for (const read_port& port : memory.reads) {
         // Iterations met by a write after the read's stage are nearer than the memory's distance: never the same word.
@@ -121,8 +121,8 @@ void plan_waits(const graph& g, const schedule::delay_model& model, const schedu
     unsigned together = 0;
     for (const node_id id : values) together += g.nodes[id].width;
     const int clocks = span.second - span.first;
-    const bool block = (clocks >= limits.block_clocks || !has_distributed) && together >= limits.block_bits &&
-                       clocks >= 4;
+    const bool block =
+        (clocks >= limits.block_clocks || !has_distributed) && together >= limits.block_bits && clocks >= 4;
     if (!block && !has_distributed) continue;
     // A block RAM's words are filled; LUT RAM comes in any width, so a value keeps a memory of its own.
     const unsigned most = block ? std::max(model.parameters().block_max_width, 1u) : 0;
@@ -131,8 +131,7 @@ void plan_waits(const graph& g, const schedule::delay_model& model, const schedu
       const unsigned width = g.nodes[id].width;
       if (open < 0 || p.lines[open].width + width > most) {
         open = static_cast<int>(p.lines.size());
-        p.lines.push_back({span.first, span.second, 0,
-                           block ? storage_kind::block : storage_kind::distributed, {}});
+        p.lines.push_back({span.first, span.second, 0, block ? storage_kind::block : storage_kind::distributed, {}});
       }
       delay_line& line = p.lines[open];
       line.values.push_back(id);

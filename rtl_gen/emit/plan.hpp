@@ -12,8 +12,8 @@ namespace epiline::emit {
 
 /// From which length on a wait is put into RAM instead of flip-flops.
 struct delay_line_limits {
-  int distributed_clocks = 6;   // LUT RAM from here on
-  int block_clocks = 17;        // block RAM from here on, if block_bits wait together; LUT RAM otherwise
+  int distributed_clocks = 6;     // LUT RAM from here on
+  int block_clocks = 17;          // block RAM from here on, if block_bits wait together; LUT RAM otherwise
   unsigned distributed_bits = 8;  // fewer bits than these stay in flip-flops
   unsigned block_bits = 24;
 };
@@ -55,8 +55,8 @@ struct memory_plan {
   schedule::storage_kind storage = schedule::storage_kind::block;
   std::vector<read_port> reads;
   std::vector<dataflow::node_id> writes;
-  bool exclusive_writes = true;     // at most one of them is enabled: they share one write port
-  bool never_meets = true;          // a read never looks at the word written in the same clock
+  bool exclusive_writes = true;  // at most one of them is enabled: they share one write port
+  bool never_meets = true;       // a read never looks at the word written in the same clock
 };
 
 struct plan {
@@ -64,9 +64,9 @@ struct plan {
   std::vector<delay_line> lines;
   std::vector<output_fifo> fifos;
   std::vector<memory_plan> memories;
-  int last_valid = 1;                   // the last stage that needs its valid bit
-  std::uint64_t copy_bits = 0;          // flip-flops of waiting values
-  std::uint64_t settled_bits = 0;       // flip-flops of settled values and of patient registers' next values
+  int last_valid = 1;              // the last stage that needs its valid bit
+  std::uint64_t copy_bits = 0;     // flip-flops of waiting values
+  std::uint64_t settled_bits = 0;  // flip-flops of settled values and of patient registers' next values
 };
 
 [[nodiscard]] plan make_plan(const dataflow::graph& g, const schedule::delay_model& model, const schedule::result& s,

@@ -62,13 +62,18 @@ json describe_interface(const graph& g) {
 std::string value_name(const graph& g, const node& n) {
   if (!n.name.empty()) return n.name;
   switch (n.kind) {
-    case operation::register_value: return g.registers[n.object].name;
+    case operation::register_value:
+      return g.registers[n.object].name;
     case operation::memory_read:
-    case operation::memory_write: return g.memories[n.object].name;
+    case operation::memory_write:
+      return g.memories[n.object].name;
     case operation::read:
-    case operation::write: return g.ports[n.object].name;
-    case operation::table: return g.tables[n.object].name;
-    default: return "";
+    case operation::write:
+      return g.ports[n.object].name;
+    case operation::table:
+      return g.tables[n.object].name;
+    default:
+      return "";
   }
 }
 
@@ -139,13 +144,14 @@ json make_report(const graph& g, const schedule::delay_model& model, const sched
   for (node_id id = 0; id < g.nodes.size(); ++id) {
     if (s.stage[id] != settled && s.available[id] > s.stage[id]) word_bits += g.nodes[id].width;
   }
-  report["registers"] = {{"state_bits", state_bits},
-                         {"pipeline_bits", p.copy_bits},
-                         {"settled_bits", p.settled_bits},
-                         {"port_bits", input_bits},
-                         {"ram_output_bits", word_bits},
-                         {"valid_bits", p.last_valid},
-                         {"total_bits", state_bits + p.copy_bits + p.settled_bits + input_bits + word_bits + p.last_valid}};
+  report["registers"] = {
+      {"state_bits", state_bits},
+      {"pipeline_bits", p.copy_bits},
+      {"settled_bits", p.settled_bits},
+      {"port_bits", input_bits},
+      {"ram_output_bits", word_bits},
+      {"valid_bits", p.last_valid},
+      {"total_bits", state_bits + p.copy_bits + p.settled_bits + input_bits + word_bits + p.last_valid}};
 
   json memories = json::array();
   for (std::size_t m = 0; m < g.memories.size(); ++m) {
@@ -163,7 +169,9 @@ json make_report(const graph& g, const schedule::delay_model& model, const sched
                         {"block_rams", blocks},
                         {"distance", memory.distance},
                         {"distance_promised", memory.distance_promised},
-                        {"write_ports", mp.writes.empty() ? 0 : mp.exclusive_writes ? 1 : mp.writes.size()},
+                        {"write_ports", mp.writes.empty()     ? 0
+                                        : mp.exclusive_writes ? 1
+                                                              : mp.writes.size()},
                         {"where", location(g, memory.where)}});
   }
   report["memories"] = memories;
@@ -173,8 +181,7 @@ json make_report(const graph& g, const schedule::delay_model& model, const sched
     std::size_t readers = 0;
     for (const node& n : g.nodes) readers += n.kind == operation::table && n.object == t;
     const bool block = model.storage(table) == storage_kind::block;
-    const unsigned blocks =
-        block ? static_cast<unsigned>(readers) * model.blocks(table.values.size(), table.width) : 0;
+    const unsigned blocks = block ? static_cast<unsigned>(readers) * model.blocks(table.values.size(), table.width) : 0;
     block_rams += blocks;
     tables.push_back({{"name", table.name},
                       {"words", table.values.size()},
@@ -231,8 +238,8 @@ json make_report(const graph& g, const schedule::delay_model& model, const sched
   json recurrence = nullptr;
   const std::vector<schedule::recurrence_delay> loops = schedule::recurrences(g, model, s);
   if (!loops.empty()) {
-    const auto slowest = std::max_element(loops.begin(), loops.end(),
-                                          [](const auto& a, const auto& b) { return a.delay < b.delay; });
+    const auto slowest =
+        std::max_element(loops.begin(), loops.end(), [](const auto& a, const auto& b) { return a.delay < b.delay; });
     recurrence = {{"register", g.registers[slowest->state].name},
                   {"delay_ns", slowest->delay},
                   {"where", location(g, g.registers[slowest->state].where)}};
@@ -311,7 +318,8 @@ std::string report_text(const json& report) {
   line("\nStages");
   for (const json& stage : report["stages"]) {
     std::string operations;
-    for (const auto& [name, count] : stage["operations"].items()) operations += fmt::format(" {} {}", number(count), name);
+    for (const auto& [name, count] : stage["operations"].items())
+      operations += fmt::format(" {} {}", number(count), name);
     line("  {:>3}: {:>6} register bits;{}", number(stage["stage"]), number(stage["register_bits"]), operations);
   }
 

@@ -1,8 +1,8 @@
 #pragma once
-// What was built and why it is as large and as slow as it is: report.json (a stable schema) and report.txt, made from it.
+// What was built and why it is as large and as slow as it is: report.json (a stable schema) and report.txt, made from
+// it.
 
 #include <nlohmann/json.hpp>
-
 #include <string>
 
 #include "dataflow/graph.hpp"
@@ -12,8 +12,8 @@
 namespace epiline::emit {
 
 struct report_options {
-  delay_line_limits delay_lines;                            // the same as for the Verilog
-  nlohmann::json passes = nlohmann::json::array();          // statistics of the passes, as the caller has them
+  delay_line_limits delay_lines;                    // the same as for the Verilog
+  nlohmann::json passes = nlohmann::json::array();  // statistics of the passes, as the caller has them
 };
 
 /// Schema "epiline-report/1"; docs/ describes it. Key "interface" suffices to drive the module.

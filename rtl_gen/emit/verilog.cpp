@@ -1,7 +1,6 @@
 #include "emit/verilog.hpp"
 
 #include <fmt/format.h>
-
 #include <llvm/ADT/APInt.h>
 #include <llvm/ADT/SmallString.h>
 #include <llvm/ADT/StringRef.h>
@@ -34,36 +33,29 @@ constexpr std::size_t longest_inlined = 60;
 constexpr std::size_t longest_concat_line = 100;
 
 constexpr std::string_view keywords[] = {
-    "always",     "and",        "assign",    "automatic",   "begin",     "buf",          "bufif0",    "bufif1",
-    "case",       "casex",      "casez",     "cell",        "cmos",      "config",       "deassign",  "default",
-    "defparam",   "design",     "disable",   "edge",        "else",      "end",          "endcase",   "endconfig",
-    "endfunction", "endgenerate", "endmodule", "endprimitive", "endspecify", "endtable", "endtask",   "event",
-    "for",        "force",      "forever",   "fork",        "function",  "generate",     "genvar",    "highz0",
-    "highz1",     "if",         "ifnone",    "incdir",      "include",   "initial",      "inout",     "input",
-    "instance",   "integer",    "join",      "large",       "liblist",   "library",      "localparam", "macromodule",
-    "medium",     "module",     "nand",      "negedge",     "nmos",      "nor",          "noshowcancelled", "not",
-    "notif0",     "notif1",     "or",        "output",      "parameter", "pmos",         "posedge",   "primitive",
-    "pull0",      "pull1",      "pulldown",  "pullup",      "pulsestyle_onevent", "pulsestyle_ondetect", "rcmos",
-    "real",       "realtime",   "reg",       "release",     "repeat",    "rnmos",        "rpmos",     "rtran",
-    "rtranif0",   "rtranif1",   "scalared",  "showcancelled", "signed",  "small",        "specify",   "specparam",
-    "strong0",    "strong1",    "supply0",   "supply1",     "table",     "task",         "time",      "tran",
-    "tranif0",    "tranif1",    "tri",       "tri0",        "tri1",      "triand",       "trior",     "trireg",
-    "unsigned",   "use",        "uwire",     "vectored",    "wait",      "wand",         "weak0",     "weak1",
-    "while",      "wire",       "wor",       "xnor",        "xor",
+    "always", "and", "assign", "automatic", "begin", "buf", "bufif0", "bufif1", "case", "casex", "casez", "cell",
+    "cmos", "config", "deassign", "default", "defparam", "design", "disable", "edge", "else", "end", "endcase",
+    "endconfig", "endfunction", "endgenerate", "endmodule", "endprimitive", "endspecify", "endtable", "endtask",
+    "event", "for", "force", "forever", "fork", "function", "generate", "genvar", "highz0", "highz1", "if", "ifnone",
+    "incdir", "include", "initial", "inout", "input", "instance", "integer", "join", "large", "liblist", "library",
+    "localparam", "macromodule", "medium", "module", "nand", "negedge", "nmos", "nor", "noshowcancelled", "not",
+    "notif0", "notif1", "or", "output", "parameter", "pmos", "posedge", "primitive", "pull0", "pull1", "pulldown",
+    "pullup", "pulsestyle_onevent", "pulsestyle_ondetect", "rcmos", "real", "realtime", "reg", "release", "repeat",
+    "rnmos", "rpmos", "rtran", "rtranif0", "rtranif1", "scalared", "showcancelled", "signed", "small", "specify",
+    "specparam", "strong0", "strong1", "supply0", "supply1", "table", "task", "time", "tran", "tranif0", "tranif1",
+    "tri", "tri0", "tri1", "triand", "trior", "trireg", "unsigned", "use", "uwire", "vectored", "wait", "wand", "weak0",
+    "weak1", "while", "wire", "wor", "xnor", "xor",
     // SystemVerilog's most likely names: tools may read .v files as SystemVerilog.
-    "bit",        "byte",       "char",      "class",       "const",     "do",           "enum",      "final",
-    "int",        "interface",  "local",     "logic",       "longint",   "new",          "null",      "package",
-    "priority",   "program",    "property",  "protected",   "ref",       "return",       "sequence",  "shortint",
-    "shortreal",  "static",     "string",    "struct",      "super",     "tagged",       "this",      "type",
-    "typedef",    "union",      "unique",    "var",         "virtual",   "void",         "with",      "within",
-    "break",      "continue",   "checker",   "clocking",    "context",   "cover",        "cross",     "dist",
-    "expect",     "export",     "extends",   "extern",      "first_match", "foreach",    "global",    "iff",
-    "import",     "inside",     "join_any",  "join_none",   "let",       "matches",      "modport",   "packed",
-    "pure",       "rand",       "randc",     "randcase",    "solve",     "strong",       "weak",      "throughout",
-    "timeprecision", "timeunit", "wildcard", "restrict",    "reject_on", "accept_on",    "assert",    "assume",
-    "before",     "bind",       "bins",      "binsof",      "covergroup", "coverpoint",  "endclass",  "implements",
-    "implies",    "intersect",  "nettype",   "nexttime",    "soft",      "untyped",      "until",     "chandle",
-    "alias",      "always_comb", "always_ff", "always_latch", "eventually", "forkjoin",  "unique0",   "s_always"};
+    "bit", "byte", "char", "class", "const", "do", "enum", "final", "int", "interface", "local", "logic", "longint",
+    "new", "null", "package", "priority", "program", "property", "protected", "ref", "return", "sequence", "shortint",
+    "shortreal", "static", "string", "struct", "super", "tagged", "this", "type", "typedef", "union", "unique", "var",
+    "virtual", "void", "with", "within", "break", "continue", "checker", "clocking", "context", "cover", "cross",
+    "dist", "expect", "export", "extends", "extern", "first_match", "foreach", "global", "iff", "import", "inside",
+    "join_any", "join_none", "let", "matches", "modport", "packed", "pure", "rand", "randc", "randcase", "solve",
+    "strong", "weak", "throughout", "timeprecision", "timeunit", "wildcard", "restrict", "reject_on", "accept_on",
+    "assert", "assume", "before", "bind", "bins", "binsof", "covergroup", "coverpoint", "endclass", "implements",
+    "implies", "intersect", "nettype", "nexttime", "soft", "untyped", "until", "chandle", "alias", "always_comb",
+    "always_ff", "always_latch", "eventually", "forkjoin", "unique0", "s_always"};
 
 bool is_keyword(std::string_view name) {
   return std::find(std::begin(keywords), std::end(keywords), name) != std::end(keywords);
@@ -71,7 +63,8 @@ bool is_keyword(std::string_view name) {
 
 bool is_identifier(std::string_view name) {
   if (name.empty() || (!std::isalpha(static_cast<unsigned char>(name[0])) && name[0] != '_')) return false;
-  return std::all_of(name.begin(), name.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; });
+  return std::all_of(name.begin(), name.end(),
+                     [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; });
 }
 
 std::string range_of(unsigned width) { return width == 1 ? "" : fmt::format("[{}:0] ", width - 1); }
@@ -82,7 +75,8 @@ std::string literal(const llvm::APInt& value) {
   const bool small = value.getActiveBits() <= 10;
   value.toString(digits, small ? 10 : 16, false, false);
   std::string text(digits.str());
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return fmt::format("{}'{}{}", width, small ? 'd' : 'h', text);
 }
 
@@ -118,8 +112,8 @@ class writer {
     bool identifier = true;  // a bit select may follow
   };
   text_of_value at(node_id id, int stage) const;
-  std::string operand(node_id id, int stage) const;    // parenthesised unless primary
-  std::string whole(node_id id, int stage) const;      // as a complete expression
+  std::string operand(node_id id, int stage) const;  // parenthesised unless primary
+  std::string whole(node_id id, int stage) const;    // as a complete expression
   text_of_value expression(node_id id) const;
   std::string part(const text_of_value& v, node_id source, unsigned low, unsigned width) const;
   std::string index(node_id address, int stage, std::uint64_t words) const;
@@ -170,8 +164,8 @@ class writer {
   std::map<std::string, unsigned, std::less<>> numbers_;
   std::vector<std::string> node_name_, register_name_, memory_name_, table_name_, port_name_, line_name_;
   std::vector<char> inlined_;
-  std::vector<std::string> pending_name_;  // patient registers' next value
-  std::vector<std::vector<node_id>> nodes_at_;      // per stage
+  std::vector<std::string> pending_name_;       // patient registers' next value
+  std::vector<std::vector<node_id>> nodes_at_;  // per stage
   std::vector<std::vector<register_id>> registers_at_, updates_at_;
   std::vector<std::vector<std::size_t>> memory_reads_at_;  // unused entries stay empty
 };
@@ -204,9 +198,10 @@ std::string writer::fresh(std::string_view wanted) {
 }
 
 std::string writer::fresh_port(const std::string& wanted) {
-  constexpr const char* suffixes[] = {"_token", "_spare",      "_there", "_spare_there", "_ready", "_take", "_push",
-                                      "_move",  "_fifo",       "_in",    "_out",         "_word",  "_left", "_skipped",
-                                      "_load",  "_word_there", "_data",  "_credits",     "_room",  "_credits_next"};
+  constexpr const char* suffixes[] = {"_token",      "_spare", "_there",   "_spare_there", "_ready",
+                                      "_take",       "_push",  "_move",    "_fifo",        "_in",
+                                      "_out",        "_word",  "_left",    "_skipped",     "_load",
+                                      "_word_there", "_data",  "_credits", "_room",        "_credits_next"};
   for (;;) {
     const std::string name = fresh(wanted);
     const bool clash = std::any_of(std::begin(suffixes), std::end(suffixes),
@@ -251,32 +246,51 @@ void writer::reserve_interface() {
 void writer::choose_names() {
   const auto letter_name = [](operation kind) {
     switch (kind) {
-      case operation::add: return "sum";
-      case operation::subtract: return "difference";
-      case operation::multiply: return "product";
-      case operation::select: return "choice";
-      case operation::equal: return "same";
+      case operation::add:
+        return "sum";
+      case operation::subtract:
+        return "difference";
+      case operation::multiply:
+        return "product";
+      case operation::select:
+        return "choice";
+      case operation::equal:
+        return "same";
       case operation::less_unsigned:
-      case operation::less_signed: return "less";
-      case operation::bit_and: return "both";
-      case operation::bit_or: return "either";
-      case operation::bit_xor: return "differ";
-      case operation::bit_not: return "inverse";
-      case operation::concat: return "joined";
-      case operation::slice: return "part";
+      case operation::less_signed:
+        return "less";
+      case operation::bit_and:
+        return "both";
+      case operation::bit_or:
+        return "either";
+      case operation::bit_xor:
+        return "differ";
+      case operation::bit_not:
+        return "inverse";
+      case operation::concat:
+        return "joined";
+      case operation::slice:
+        return "part";
       case operation::extend_zero:
-      case operation::extend_sign: return "wide";
+      case operation::extend_sign:
+        return "wide";
       case operation::shift_left:
       case operation::shift_right_logical:
-      case operation::shift_right_arithmetic: return "shifted";
-      case operation::table: return "entry";
-      case operation::memory_read: return "word";
-      case operation::read: return "token";
-      default: return "value";
+      case operation::shift_right_arithmetic:
+        return "shifted";
+      case operation::table:
+        return "entry";
+      case operation::memory_read:
+        return "word";
+      case operation::read:
+        return "token";
+      default:
+        return "value";
     }
   };
   for (const dataflow::port& port : g_.ports) port_name_.push_back(fresh_port(port.name));
-  for (const dataflow::register_state& r : g_.registers) register_name_.push_back(fresh(r.name.empty() ? "state" : r.name));
+  for (const dataflow::register_state& r : g_.registers)
+    register_name_.push_back(fresh(r.name.empty() ? "state" : r.name));
   for (const dataflow::memory& m : g_.memories) memory_name_.push_back(fresh(m.name.empty() ? "ram" : m.name));
   for (const dataflow::table& t : g_.tables) table_name_.push_back(fresh(t.name.empty() ? "rom" : t.name));
   pending_name_.resize(g_.registers.size());
@@ -316,8 +330,7 @@ void writer::choose_inlined() {
       // What a bit select follows, and what is written more than once in the user's text.
       const bool selects = n.kind == operation::slice || n.kind == operation::extend_sign;
       const bool control = n.kind == operation::write || n.kind == operation::memory_write ||
-                           n.kind == operation::read || n.kind == operation::memory_read ||
-                           n.kind == operation::table;
+                           n.kind == operation::read || n.kind == operation::memory_read || n.kind == operation::table;
       const bool shift = n.kind == operation::shift_left || n.kind == operation::shift_right_logical ||
                          n.kind == operation::shift_right_arithmetic;
       const bool division = n.kind == operation::divide_unsigned || n.kind == operation::divide_signed ||
@@ -362,7 +375,8 @@ void writer::choose_inlined() {
         inlined_[id] = single && here && !schedule::is_settled_register(g_, s_, id) &&
                        expression(id).text.size() <= longest_inlined;
         break;
-      default: break;
+      default:
+        break;
     }
   }
 }
@@ -415,17 +429,28 @@ writer::text_of_value writer::expression(node_id id) const {
   };
   const auto as_signed = [&](std::size_t i) { return fmt::format("$signed({})", whole(n.operands[i], stage)); };
   switch (n.kind) {
-    case operation::add: return binary("+");
-    case operation::subtract: return binary("-");
-    case operation::multiply: return binary("*");
-    case operation::bit_and: return binary("&");
-    case operation::bit_or: return binary("|");
-    case operation::bit_xor: return binary("^");
-    case operation::bit_not: return {"~" + o(0), true, false};
-    case operation::equal: return binary("==");
-    case operation::less_unsigned: return binary("<");
-    case operation::less_signed: return {fmt::format("{} < {}", as_signed(0), as_signed(1)), false, false};
-    case operation::select: return {fmt::format("{} ? {} : {}", o(0), o(1), o(2)), false, false};
+    case operation::add:
+      return binary("+");
+    case operation::subtract:
+      return binary("-");
+    case operation::multiply:
+      return binary("*");
+    case operation::bit_and:
+      return binary("&");
+    case operation::bit_or:
+      return binary("|");
+    case operation::bit_xor:
+      return binary("^");
+    case operation::bit_not:
+      return {"~" + o(0), true, false};
+    case operation::equal:
+      return binary("==");
+    case operation::less_unsigned:
+      return binary("<");
+    case operation::less_signed:
+      return {fmt::format("{} < {}", as_signed(0), as_signed(1)), false, false};
+    case operation::select:
+      return {fmt::format("{} ? {} : {}", o(0), o(1), o(2)), false, false};
     case operation::shift_left:
     case operation::shift_right_logical:
     case operation::shift_right_arithmetic: {
@@ -445,10 +470,14 @@ writer::text_of_value writer::expression(node_id id) const {
                           part(full, n.operands[1], most, amount.width - most)),
               false, false};
     }
-    case operation::divide_unsigned: return binary("/");
-    case operation::remainder_unsigned: return binary("%");
-    case operation::divide_signed: return {fmt::format("{} / {}", as_signed(0), as_signed(1)), false, false};
-    case operation::remainder_signed: return {fmt::format("{} % {}", as_signed(0), as_signed(1)), false, false};
+    case operation::divide_unsigned:
+      return binary("/");
+    case operation::remainder_unsigned:
+      return binary("%");
+    case operation::divide_signed:
+      return {fmt::format("{} / {}", as_signed(0), as_signed(1)), false, false};
+    case operation::remainder_signed:
+      return {fmt::format("{} % {}", as_signed(0), as_signed(1)), false, false};
     case operation::slice: {
       const text_of_value v = at(n.operands[0], stage);
       // A part of a slice that is its operand's text needs no brackets of its own only when it is everything.
@@ -482,7 +511,8 @@ writer::text_of_value writer::expression(node_id id) const {
       }
       return {text + "}", true, false};
     }
-    default: return {node_name_[id], true, true};
+    default:
+      return {node_name_[id], true, true};
   }
 }
 
@@ -504,7 +534,10 @@ void writer::write_heading() {
   line("// that made them. State changes only where the stage's valid bit is set.");
   line("//");
   line("// UNUSED is waived because a narrow user may take some bits only of a value, a token or a scalar.");
+  line("// UNSIGNED and CMPCONST are waived because the range of its operands may decide a comparison.");
   line("/* verilator lint_off UNUSED */");
+  line("/* verilator lint_off UNSIGNED */");
+  line("/* verilator lint_off CMPCONST */");
   line("`default_nettype none");
   line("");
 }
@@ -621,7 +654,8 @@ void writer::write_settled() {
     line("    {} <= {};", node_name_[id], expression(id).text);
     if (quotient || remainder) {
       const std::string by_zero = quotient ? fmt::format("{{{}{{1'b1}}}}", n.width) : whole(n.operands[0], settled);
-      line("    if ({} == {}) {} <= {};", operand(n.operands[1], settled), literal(n.width, 0), node_name_[id], by_zero);
+      line("    if ({} == {}) {} <= {};", operand(n.operands[1], settled), literal(n.width, 0), node_name_[id],
+           by_zero);
     }
   }
   line("  end");
@@ -755,7 +789,8 @@ void writer::write_node(node_id id) {
     case operation::constant:
     case operation::register_value:
     case operation::write:
-    case operation::memory_write: return;
+    case operation::memory_write:
+      return;
     case operation::read: {
       const std::string token = port_name_[n.object] + "_token";
       if (is_always(n.operands[0])) {
@@ -779,8 +814,9 @@ void writer::write_node(node_id id) {
       const unsigned width = g_.nodes[n.operands[0]].width;
       std::string word = fmt::format("{}[{}]", table_name_[n.object], index(n.operands[0], stage, words));
       if (width > needed) {  // past the end
-        word = fmt::format("({} == {}) ? {} : {}", part(at(n.operands[0], stage), n.operands[0], needed, width - needed),
-                           literal(width - needed, 0), word, literal(n.width, 0));
+        word =
+            fmt::format("({} == {}) ? {} : {}", part(at(n.operands[0], stage), n.operands[0], needed, width - needed),
+                        literal(width - needed, 0), word, literal(n.width, 0));
       }
       if (s_.available[id] == stage) {
         line("  wire {}{} = {};{}", range, name, word, note);
@@ -801,7 +837,8 @@ void writer::write_node(node_id id) {
            literal(n.width, 0), by_zero, name, note);
       return;
     }
-    default: break;
+    default:
+      break;
   }
   line("  wire {}{} = {};{}", range, name, expression(id).text, note);
 }
@@ -1017,9 +1054,8 @@ void writer::write_outputs() {
   for (std::size_t i = 0; i < g_.ports.size(); ++i) {
     const dataflow::port& port = g_.ports[i];
     if (port.input) continue;
-    const auto found = std::find_if(plan_.fifos.begin(), plan_.fifos.end(), [&](const output_fifo& f) {
-      return f.port == static_cast<dataflow::port_id>(i);
-    });
+    const auto found = std::find_if(plan_.fifos.begin(), plan_.fifos.end(),
+                                    [&](const output_fifo& f) { return f.port == static_cast<dataflow::port_id>(i); });
     const std::string& name = port_name_[i];
     if (found == plan_.fifos.end()) {  // nothing is ever written
       title(fmt::format("output {}: never written", port.name));
@@ -1041,10 +1077,10 @@ void writer::write_outputs() {
       always |= is_always(n.operands[0]);
       pushes += (pushes.empty() ? "" : " | ") + predicate;
       const bool last = id == fifo.writes.back();
-      data += last ? operand(n.operands[1], stage) : fmt::format("{} ? {} : ", predicate, operand(n.operands[1], stage));
+      data +=
+          last ? operand(n.operands[1], stage) : fmt::format("{} ? {} : ", predicate, operand(n.operands[1], stage));
     }
-    line("  wire {}_push = {};", name,
-         always ? valid(stage) : fmt::format("{} & ({})", valid(stage), pushes));
+    line("  wire {}_push = {};", name, always ? valid(stage) : fmt::format("{} & ({})", valid(stage), pushes));
     const bool has_block = fifo.depth > 64;
     line("  (* ram_style = \"{}\", no_rw_check *)", has_block ? "block" : "distributed");
     line("  reg {}{}_fifo [0:{}];", range_of(port.width), name, fifo.depth - 1);
@@ -1081,7 +1117,7 @@ void writer::write_outputs() {
     for (const dataflow::field& f : port.fields) {
       const std::string bits = f.width == port.width ? name + "_word"
                                : f.width == 1        ? fmt::format("{}_word[{}]", name, f.offset)
-                                                     : fmt::format("{}_word[{}:{}]", name, f.offset + f.width - 1, f.offset);
+                                              : fmt::format("{}_word[{}:{}]", name, f.offset + f.width - 1, f.offset);
       line("  assign {} = {};", signal_name(port, f.signal), bits);
     }
   }

@@ -80,7 +80,9 @@ unsigned significant_width(const graph& g, node_id id) {
 /// LUT levels of a reduction of `inputs` bits, with the wide-function multiplexers making it a smooth function.
 double reduction_levels(double inputs) { return std::max(1.0, std::log2(std::max(inputs, 1.0)) / 2.0); }
 
-unsigned address_bits(std::uint64_t words) { return words <= 1 ? 1u : static_cast<unsigned>(std::bit_width(words - 1)); }
+unsigned address_bits(std::uint64_t words) {
+  return words <= 1 ? 1u : static_cast<unsigned>(std::bit_width(words - 1));
+}
 
 /// Selecting among `words` words of LUT RAM or LUT ROM beyond the 16 that one LUT holds.
 double depth_levels(std::uint64_t words) { return 0.5 * std::max(0, static_cast<int>(address_bits(words)) - 4); }
@@ -89,9 +91,12 @@ double depth_levels(std::uint64_t words) { return 0.5 * std::max(0, static_cast<
 
 const char* name_of(storage_kind kind) {
   switch (kind) {
-    case storage_kind::logic: return "logic";
-    case storage_kind::distributed: return "distributed";
-    case storage_kind::block: return "block";
+    case storage_kind::logic:
+      return "logic";
+    case storage_kind::distributed:
+      return "distributed";
+    case storage_kind::block:
+      return "block";
   }
   return "";
 }
@@ -105,15 +110,20 @@ bool is_wire(const graph& g, node_id id) {
     case operation::slice:
     case operation::extend_zero:
     case operation::extend_sign:
-    case operation::bit_not: return true;
+    case operation::bit_not:
+      return true;
     case operation::bit_and:
     case operation::bit_or:
-    case operation::bit_xor: return has_constant_operand(g, n);
+    case operation::bit_xor:
+      return has_constant_operand(g, n);
     case operation::shift_left:
     case operation::shift_right_logical:
-    case operation::shift_right_arithmetic: return is_constant(g, n.operands[1]);
-    case operation::read: return is_constant(g, n.operands[0]);
-    default: return false;
+    case operation::shift_right_arithmetic:
+      return is_constant(g, n.operands[1]);
+    case operation::read:
+      return is_constant(g, n.operands[0]);
+    default:
+      return false;
   }
 }
 
@@ -135,7 +145,8 @@ double delay_model::delay(const graph& g, node_id id) const {
   if (is_wire(g, id)) return 0;
   const auto carry = [&](unsigned width) { return p.carry_entry + p.carry_bit * width + p.carry_exit; };
   switch (n.kind) {
-    case operation::read: return 0.5 * p.lut_level;  // masked by its predicate
+    case operation::read:
+      return 0.5 * p.lut_level;  // masked by its predicate
     case operation::add:
     case operation::subtract:
       return n.width == 1 ? 0.5 * p.lut_level : carry(n.width);
@@ -159,10 +170,12 @@ double delay_model::delay(const graph& g, node_id id) const {
     case operation::divide_unsigned:
     case operation::divide_signed:
     case operation::remainder_unsigned:
-    case operation::remainder_signed: return n.width * (carry(n.width) + 0.8 * p.lut_level);
+    case operation::remainder_signed:
+      return n.width * (carry(n.width) + 0.8 * p.lut_level);
     case operation::bit_and:
     case operation::bit_or:
-    case operation::bit_xor: return 0.5 * p.lut_level;
+    case operation::bit_xor:
+      return 0.5 * p.lut_level;
     case operation::shift_left:
     case operation::shift_right_logical:
     case operation::shift_right_arithmetic: {
@@ -173,7 +186,8 @@ double delay_model::delay(const graph& g, node_id id) const {
       const unsigned width = g.nodes[n.operands[0]].width;
       return p.lut_level * reduction_levels(has_constant_operand(g, n) ? width : 2.0 * width);
     }
-    case operation::select: return 0.8 * p.lut_level;
+    case operation::select:
+      return 0.8 * p.lut_level;
     case operation::table: {
       const dataflow::table& t = g.tables[n.object];
       return storage(t) == storage_kind::block ? 0 : p.lut_level * (1 + depth_levels(t.values.size()));
@@ -183,7 +197,8 @@ double delay_model::delay(const graph& g, node_id id) const {
       if (storage(m) == storage_kind::block) return 0;
       return p.distributed_read + p.lut_level * depth_levels(m.words);
     }
-    default: return 0;
+    default:
+      return 0;
   }
 }
 
@@ -197,11 +212,16 @@ int delay_model::latency(const graph& g, node_id id) const {
 double delay_model::entry(const graph& g, node_id id, std::size_t index) const {
   const node& n = g.nodes[id];
   switch (n.kind) {
-    case operation::memory_read: return latency(g, id) > 0 ? parameters_.memory_setup : 0;
-    case operation::table: return latency(g, id) > 0 ? parameters_.memory_setup : 0;
-    case operation::memory_write: return parameters_.memory_setup + (index == 2 ? enable_entry() : 0);
-    case operation::write: return parameters_.memory_setup + (index == 0 ? enable_entry() : 0);
-    default: return 0;
+    case operation::memory_read:
+      return latency(g, id) > 0 ? parameters_.memory_setup : 0;
+    case operation::table:
+      return latency(g, id) > 0 ? parameters_.memory_setup : 0;
+    case operation::memory_write:
+      return parameters_.memory_setup + (index == 2 ? enable_entry() : 0);
+    case operation::write:
+      return parameters_.memory_setup + (index == 0 ? enable_entry() : 0);
+    default:
+      return 0;
   }
 }
 
@@ -210,11 +230,14 @@ double delay_model::area(const graph& g, node_id id) const {
   if (is_wire(g, id)) return 0;
   const auto operand_width = [&](std::size_t index) { return g.nodes[n.operands[index]].width; };
   switch (n.kind) {
-    case operation::read: return 0.5 * n.width;
+    case operation::read:
+      return 0.5 * n.width;
     case operation::add:
-    case operation::subtract: return n.width;
+    case operation::subtract:
+      return n.width;
     case operation::less_unsigned:
-    case operation::less_signed: return operand_width(0);
+    case operation::less_signed:
+      return operand_width(0);
     case operation::multiply: {
       const unsigned a = significant_width(g, n.operands[0]);
       const unsigned b = significant_width(g, n.operands[1]);
@@ -227,16 +250,20 @@ double delay_model::area(const graph& g, node_id id) const {
     case operation::divide_unsigned:
     case operation::divide_signed:
     case operation::remainder_unsigned:
-    case operation::remainder_signed: return 2.0 * n.width * n.width;
+    case operation::remainder_signed:
+      return 2.0 * n.width * n.width;
     case operation::bit_and:
     case operation::bit_or:
-    case operation::bit_xor: return 0.5 * n.width;
+    case operation::bit_xor:
+      return 0.5 * n.width;
     case operation::shift_left:
     case operation::shift_right_logical:
     case operation::shift_right_arithmetic:
       return static_cast<double>(n.width) * std::min(operand_width(1), address_bits(n.width));
-    case operation::equal: return (has_constant_operand(g, n) ? 1.0 : 2.0) * operand_width(0) / 3.0;
-    case operation::select: return n.width;
+    case operation::equal:
+      return (has_constant_operand(g, n) ? 1.0 : 2.0) * operand_width(0) / 3.0;
+    case operation::select:
+      return n.width;
     case operation::table: {
       const dataflow::table& t = g.tables[n.object];
       if (storage(t) == storage_kind::block) return 0;
@@ -247,7 +274,8 @@ double delay_model::area(const graph& g, node_id id) const {
       if (storage(m) == storage_kind::block) return 0;
       return 1.5 * n.width * ((m.words + 15) / 16);
     }
-    default: return 0;
+    default:
+      return 0;
   }
 }
 

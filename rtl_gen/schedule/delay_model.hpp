@@ -19,19 +19,19 @@ enum class storage_kind {
 
 /// Delays in nanoseconds, wires included; areas in LUT4 (a carry cell counts as the two LUT4 it occupies).
 struct delay_parameters {
-  double launch = 0;         // clock to the output of a flip-flop, and the wire to the first operation
-  double capture = 0;        // set-up time of a flip-flop
-  double lut_level = 0;      // one LUT and the wire after it
-  double carry_entry = 0;    // operand to carry
-  double carry_bit = 0;      // carry over one bit
-  double carry_exit = 0;     // carry to sum, and the wire after it
-  double multiplier = 0;     // one hardware multiplier and the wire after it; 0: there is none
+  double launch = 0;       // clock to the output of a flip-flop, and the wire to the first operation
+  double capture = 0;      // set-up time of a flip-flop
+  double lut_level = 0;    // one LUT and the wire after it
+  double carry_entry = 0;  // operand to carry
+  double carry_bit = 0;    // carry over one bit
+  double carry_exit = 0;   // carry to sum, and the wire after it
+  double multiplier = 0;   // one hardware multiplier and the wire after it; 0: there is none
   unsigned multiplier_width = 0;
-  double distributed_read = 0;        // address to word for 16 words; every doubling costs half a LUT level
+  double distributed_read = 0;         // address to word for 16 words; every doubling costs half a LUT level
   unsigned distributed_max_words = 0;  // 0: the target has no LUT RAM
-  double memory_setup = 0;   // set-up of a RAM's address, data and enable inputs
-  double issue = 0;          // from a read's predicate through the decision to issue to the clock enables it drives
-  unsigned block_bits = 0;   // of one block RAM
+  double memory_setup = 0;             // set-up of a RAM's address, data and enable inputs
+  double issue = 0;         // from a read's predicate through the decision to issue to the clock enables it drives
+  unsigned block_bits = 0;  // of one block RAM
   unsigned block_max_width = 0;
 };
 

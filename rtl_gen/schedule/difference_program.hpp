@@ -13,8 +13,8 @@ struct difference_constraint {
   std::int64_t distance = 0;
 };
 
-/// Minimises sum(weights[i] * value[i]) under the constraints, by the network simplex on the dual flow. The weights must
-/// add up to zero (only differences of variables are priced). The values come out integral, with value[0] = 0.
+/// Minimises sum(weights[i] * value[i]) under the constraints, by the network simplex on the dual flow. The weights
+/// must add up to zero (only differences of variables are priced). The values come out integral, with value[0] = 0.
 /// Returns false when the constraints contradict each other or the minimum is unbounded; `values` is then unspecified.
 [[nodiscard]] bool solve_difference_program(const std::vector<std::int64_t>& weights,
                                             const std::vector<difference_constraint>& constraints,

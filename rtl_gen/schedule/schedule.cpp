@@ -58,16 +58,21 @@ std::vector<char> find_settled(const graph& g) {
   for (node_id id = 0; id < g.nodes.size(); ++id) {
     const node& n = g.nodes[id];
     switch (n.kind) {
-      case operation::constant: is_settled[id] = 1; break;
-      case operation::register_value: is_settled[id] = is_patient(g, n.object); break;
+      case operation::constant:
+        is_settled[id] = 1;
+        break;
+      case operation::register_value:
+        is_settled[id] = is_patient(g, n.object);
+        break;
       case operation::read:
       case operation::write:
       case operation::memory_read:
       case operation::memory_write:
-      case operation::table: break;
+      case operation::table:
+        break;
       default:
-        is_settled[id] =
-            std::all_of(n.operands.begin(), n.operands.end(), [&](node_id operand) { return is_settled[operand] != 0; });
+        is_settled[id] = std::all_of(n.operands.begin(), n.operands.end(),
+                                     [&](node_id operand) { return is_settled[operand] != 0; });
     }
   }
   return is_settled;
@@ -342,7 +347,7 @@ node_id problem::add_chains(double period, std::vector<constraint>& constraints)
       const node_id target = node_of(w.to);
       const double at = from + w.entry + (target == none ? 0 : delay_[target]);
       if (a < 0) {
-        work.push(w.to);
+        if (w.to != 0) work.push(w.to);  // the decision to issue comes last: it is looked at when all ways are known
         touched.push_back(w.to);
       }
       a = std::max(a, at);
@@ -351,6 +356,10 @@ node_id problem::add_chains(double period, std::vector<constraint>& constraints)
       if (wire && w.entry == 0 && node_of(w.to) != none) continue;
       reach(w, delay_[start]);
     }
+    const auto forbid = [&](variable v) {
+      constraints.push_back({of_node(start), v, 1, reason::chain});
+      mine.push_back(v);
+    };
     while (!work.empty()) {
       const variable v = work.top();
       work.pop();
@@ -359,14 +368,14 @@ node_id problem::add_chains(double period, std::vector<constraint>& constraints)
         continue;
       }
       if (arrival[v] > budget) {
-        constraints.push_back({of_node(start), v, 1, reason::chain});
-        mine.push_back(v);
+        forbid(v);
         continue;
       }
       const node_id target = node_of(v);
       if (target == none || latency_[target] > 0) continue;
       for (const way& w : ways_[target]) reach(w, arrival[v]);
     }
+    if (arrival[0] > budget && implied[0] != start) forbid(0);
     for (const variable v : touched) arrival[v] = -1;
   }
   return none;
@@ -559,11 +568,11 @@ void fill(const graph& g, const delay_model& model, const problem& p, const std:
 
 /// Arrival times in every stage: what validate() checks and where the critical chain comes from.
 struct timing {
-  std::vector<double> arrival;     // per node, from the clock to its result
-  std::vector<node_id> previous;   // per node, the operand that arrives last in the same stage
+  std::vector<double> arrival;    // per node, from the clock to its result
+  std::vector<node_id> previous;  // per node, the operand that arrives last in the same stage
   double worst = 0;
-  node_id worst_end = none;        // the last node of the slowest chain
-  double worst_entry = 0;          // what its end adds after that node
+  node_id worst_end = none;  // the last node of the slowest chain
+  double worst_entry = 0;    // what its end adds after that node
 };
 
 timing analyse(const graph& g, const delay_model& model, const result& s) {
@@ -585,8 +594,8 @@ timing analyse(const graph& g, const delay_model& model, const result& s) {
     double in = p.launch;
     for (std::size_t i = 0; i < n.operands.size(); ++i) {
       const node_id operand = n.operands[i];
-      const bool chained = s.stage[id] != settled && s.available[operand] == s.stage[id] &&
-                           s.stage[operand] == s.stage[id];
+      const bool chained =
+          s.stage[id] != settled && s.available[operand] == s.stage[id] && s.stage[operand] == s.stage[id];
       const bool wired = s.stage[id] == settled && s.stage[operand] == settled && !is_settled_register(g, s, operand);
       const double at = (chained || wired ? t.arrival[operand] : p.launch) + model.entry(g, id, i);
       if (at > in || (at >= in && t.previous[id] == none && chained)) {
@@ -661,8 +670,8 @@ std::string describe_node(const graph& g, node_id id) {
   const node& n = g.nodes[id];
   unsigned width = n.width;
   if (!n.operands.empty()) width = std::max(width, g.nodes[n.operands.back()].width);
-  std::string text = fmt::format("{}: {}, {} bit{}", describe(g, n.where), dataflow::name_of(n.kind), width,
-                                 width == 1 ? "" : "s");
+  std::string text =
+      fmt::format("{}: {}, {} bit{}", describe(g, n.where), dataflow::name_of(n.kind), width, width == 1 ? "" : "s");
   std::string name = n.name;
   if (name.empty() && n.kind == operation::register_value) name = g.registers[n.object].name;
   if (name.empty() && (n.kind == operation::read || n.kind == operation::write)) name = g.ports[n.object].name;
@@ -701,14 +710,21 @@ std::string describe_node(const graph& g, node_id id) {
       if (c.why == reason::recurrence && register_name.empty()) {
         register_name = g.registers[p.register_of_update(c.from)].name;
       }
+      const auto is_listed = [&](node_id id) {
+        return std::any_of(chain.begin(), chain.end(), [&](const chain_link& link) { return link.node == id; });
+      };
       if (c.why == reason::chain) {
-        required = std::max(required, p.trace(p.node_of(c.from), c.to, chain));
-      } else if (p.node_of(c.to) != none) {
-        const node_id id = p.node_of(c.to);
-        if (chain.empty() || chain.back().node != id) chain.push_back({id, p.node_delay(id)});
+        std::vector<chain_link> part;
+        required = std::max(required, p.trace(p.node_of(c.from), c.to, part));
+        for (const chain_link& link : part) {
+          if (!is_listed(link.node)) chain.push_back(link);
+        }
+      } else if (const node_id id = p.node_of(c.to); id != none && !is_listed(id)) {
+        // Operations on the cycle that no chain contains; wires tell a reader nothing.
+        const bool telling = !is_wire(g, id) || model.latency(g, id) > 0;
+        if (telling) chain.push_back({id, p.node_delay(id)});
       }
     }
-    if (chain.size() > 1 && chain.front().node == chain.back().node) chain.pop_back();
     for (const chain_link& link : chain) {
       if (where.line == 0) where = g.nodes[link.node].where;
     }
@@ -1001,7 +1017,8 @@ std::string validate(const graph& g, const delay_model& model, const result& s) 
         if (s.stage[operand] != settled) return complain(id, "settled, but an operand is not");
         level = std::max(level, s.settle_level[operand]);
       }
-      if (s.settle_level[id] < level + (is_settled_register(g, s, id) ? 1 : 0)) return complain(id, "settles too early");
+      if (s.settle_level[id] < level + (is_settled_register(g, s, id) ? 1 : 0))
+        return complain(id, "settles too early");
       settle = std::max(settle, s.settle_level[id]);
       continue;
     }

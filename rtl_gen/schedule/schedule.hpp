@@ -45,8 +45,8 @@ struct result {
   int commit = 0;                    // stage at whose end patient registers change
   int hold = 0;                      // clocks without an issue that follow an iteration marked by graph::patient
   std::vector<chain_link> critical_chain;
-  double critical_delay = 0;         // nanoseconds, from clock to clock
-  std::uint64_t pipeline_bits = 0;   // bits times stages that values wait for their users
+  double critical_delay = 0;        // nanoseconds, from clock to clock
+  std::uint64_t pipeline_bits = 0;  // bits times stages that values wait for their users
 };
 
 /// No schedule exists for this period and interval. what() is the whole explanation for a person.

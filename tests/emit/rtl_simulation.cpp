@@ -1,10 +1,9 @@
 #include "rtl_simulation.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
-
 #include <llvm/ADT/ArrayRef.h>
 #include <llvm/ADT/SmallString.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -51,8 +50,8 @@ std::string make_testbench(const dataflow::graph& g, const std::vector<token_lis
     }
     if (p.input) {
       const std::size_t count = inputs[i].size();
-      declarations += fmt::format("reg {} tokens{} [0:{}]; integer next{} = 0; reg {} = 0; wire {};\n", range(p.width), i,
-                                  count, i, valid, ready);
+      declarations += fmt::format("reg {} tokens{} [0:{}]; integer next{} = 0; reg {} = 0; wire {};\n", range(p.width),
+                                  i, count, i, valid, ready);
       declarations += fmt::format("reg {} token{};\n", range(p.width), i);
       declarations += fmt::format("initial $readmemh(\"port{}.hex\", tokens{});\n", i, i);
       clocked += fmt::format(
@@ -79,9 +78,9 @@ std::string make_testbench(const dataflow::graph& g, const std::vector<token_lis
       "{} dut(.clk(clk), .rst(rst){});\nalways #5 clk = ~clk;\n"
       "always @(posedge clk) if (now >= 5) begin\n  activity = 0;\n{}"
       "  if (activity) begin idle = 0; if (first < 0) first = now; end else idle = idle + 1;\n"
-      "  if (idle > {}) begin $display(\"CLOCKS %0d\", last - first); $finish; end\nend\n"
+      "  if (idle > {} || now > {}) begin $display(\"CLOCKS %0d\", last - first); $finish; end\nend\n"
       "always @(posedge clk) begin now <= now + 1; rst <= now < 3; end\nendmodule\n",
-      options.seed, declarations, g.name, connections, clocked, options.idle_clocks);
+      options.seed, declarations, g.name, connections, clocked, options.idle_clocks, options.most_clocks);
 }
 
 }  // namespace
@@ -113,8 +112,9 @@ simulation_result simulate(const dataflow::graph& g, const std::string& verilog,
     for (const llvm::APInt& token : inputs[i]) text += hex(token) + "\n";
     write_file(fmt::format("{}/port{}.hex", folder, i), text);
   }
-  result.problem = run(fmt::format("cd {} && iverilog -g2005 -s testbench -o sim dut.v testbench.v && vvp -n sim", folder),
-                       folder + "/simulation.log");
+  result.problem =
+      run(fmt::format("cd {} && iverilog -g2005 -s testbench -o sim dut.v testbench.v && vvp -n sim", folder),
+          folder + "/simulation.log");
   if (!result.problem.empty()) return result;
   std::istringstream log(read_file(folder + "/simulation.log"));
   for (std::string line; std::getline(log, line);) {
@@ -127,7 +127,8 @@ simulation_result simulate(const dataflow::graph& g, const std::string& verilog,
     std::istringstream tokens(read_file(fmt::format("{}/port{}.out", folder, i)));
     for (std::string line; std::getline(tokens, line);) {
       if (line.find_first_of("xXzZ") != std::string::npos) {
-        result.problem = fmt::format("port {}: unknown bits in token {}: {}", g.ports[i].name, result.outputs[i].size(), line);
+        result.problem =
+            fmt::format("port {}: unknown bits in token {}: {}", g.ports[i].name, result.outputs[i].size(), line);
         return result;
       }
       // APInt wants room for all digits of the text.
@@ -138,18 +139,20 @@ simulation_result simulate(const dataflow::graph& g, const std::string& verilog,
   return result;
 }
 
-std::vector<token_list> interpret(const dataflow::graph& g, const std::vector<token_list>& inputs) {
+interpretation interpret(const dataflow::graph& g, const std::vector<token_list>& inputs,
+                         std::uint64_t most_iterations) {
   dataflow::interpreter machine(g);
   for (std::uint32_t i = 0; i < g.ports.size(); ++i) {
     for (const llvm::APInt& token : inputs[i]) machine.push(i, token);
   }
-  (void)machine.run_until_blocked(1000000);
-  std::vector<token_list> outputs(g.ports.size());
+  interpretation result;
+  result.complete = machine.run_until_blocked(most_iterations).last == dataflow::outcome::blocked;
+  result.outputs.resize(g.ports.size());
   for (std::uint32_t i = 0; i < g.ports.size(); ++i) {
     if (g.ports[i].input) continue;
-    while (auto token = machine.pop(i)) outputs[i].push_back(*token);
+    while (auto token = machine.pop(i)) result.outputs[i].push_back(*token);
   }
-  return outputs;
+  return result;
 }
 
 std::vector<token_list> random_inputs(const dataflow::graph& g, std::size_t count, std::uint64_t seed) {

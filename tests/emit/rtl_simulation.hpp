@@ -15,9 +15,10 @@ namespace epiline::testing {
 using token_list = std::vector<llvm::APInt>;
 
 struct simulation_options {
-  unsigned gap_percent = 0;    // clocks in which an input has no token, or an output's ready is 0
+  unsigned gap_percent = 0;  // clocks in which an input has no token, or an output's ready is 0
   std::uint64_t seed = 1;
-  unsigned idle_clocks = 400;  // the simulation ends after so many clocks without a transfer
+  unsigned idle_clocks = 400;    // the simulation ends after so many clocks without a transfer
+  unsigned most_clocks = 40000;  // or after so many in all: a graph need not wait for anything
 };
 
 struct simulation_result {
@@ -31,8 +32,14 @@ struct simulation_result {
                                          const std::vector<token_list>& inputs, const std::string& folder,
                                          const simulation_options& options);
 
-/// What the interpreter makes of the same inputs.
-[[nodiscard]] std::vector<token_list> interpret(const dataflow::graph& g, const std::vector<token_list>& inputs);
+struct interpretation {
+  std::vector<token_list> outputs;  // per port
+  bool complete = false;            // it came to wait for a token: nothing follows these outputs
+};
+
+/// What the interpreter makes of the same inputs in up to `most_iterations`.
+[[nodiscard]] interpretation interpret(const dataflow::graph& g, const std::vector<token_list>& inputs,
+                                       std::uint64_t most_iterations = 10000);
 
 /// Random tokens for every input port.
 [[nodiscard]] std::vector<token_list> random_inputs(const dataflow::graph& g, std::size_t count, std::uint64_t seed);

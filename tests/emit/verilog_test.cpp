@@ -6,6 +6,7 @@
 
 #include <filesystem>
 
+#include "dataflow/random_graph.hpp"
 #include "example_graphs.hpp"
 #include "rtl_simulation.hpp"
 
@@ -74,36 +75,193 @@ TEST_P(every_example, is_clean_verilog) {
   std::filesystem::remove_all(folder);
 }
 
+/// Simulates and compares with what the interpreter gave.
+void expect_same(const graph& g, const std::string& verilog, const std::vector<token_list>& inputs,
+                 const interpretation& expected, const simulation_options& options) {
+  const std::string folder = scratch_folder("run-" + g.name);
+  const simulation_result r = simulate(g, verilog, inputs, folder, options);
+  ASSERT_EQ(r.problem, "") << folder;
+  for (std::size_t i = 0; i < g.ports.size(); ++i) {
+    const token_list& wanted = expected.outputs[i];
+    ASSERT_GE(r.outputs[i].size(), wanted.size()) << g.ports[i].name << " in " << folder;
+    if (expected.complete) {
+      ASSERT_EQ(r.outputs[i].size(), wanted.size()) << g.ports[i].name << " in " << folder;
+    }
+    for (std::size_t t = 0; t < wanted.size(); ++t) {
+      ASSERT_EQ(r.outputs[i][t], wanted[t]) << g.ports[i].name << " token " << t << " in " << folder;
+    }
+  }
+  std::filesystem::remove_all(folder);
+}
+
 TEST_P(every_example, does_what_the_interpreter_does) {
   const example& e = GetParam();
   const schedule::delay_model model("ecp5");
   const std::vector<token_list> inputs = inputs_for(e, 300);
-  const std::vector<token_list> expected = interpret(e.g, inputs);
+  const interpretation expected = interpret(e.g, inputs);
+  EXPECT_TRUE(expected.complete);
   std::size_t tokens = 0;
-  for (const token_list& list : expected) tokens += list.size();
+  for (const token_list& list : expected.outputs) tokens += list.size();
   EXPECT_GT(tokens, 20u);
-  for (unsigned trial = 0; trial < 5; ++trial) {
-    const schedule::result s =
-        trial < 3 ? schedule::make_schedule(e.g, model, {e.period, e.interval})
-                  : schedule::make_random_schedule(e.g, model, {e.period, e.interval}, trial);
+  const schedule::options wanted{e.period, e.interval};
+  unsigned trial = 0;
+  for (const unsigned gaps : {0, 40, 85, 0, 40}) {
+    ++trial;
+    const schedule::result s = trial <= 3 ? schedule::make_schedule(e.g, model, wanted)
+                                          : schedule::make_random_schedule(e.g, model, wanted, trial);
     ASSERT_EQ(schedule::validate(e.g, model, s), "");
-    const std::string folder = scratch_folder("run-" + e.name);
-    const unsigned gaps[] = {0, 40, 85, 0, 40};
-    const simulation_result r =
-        simulate(e.g, emit::emit_verilog(e.g, model, s), inputs, folder, {.gap_percent = gaps[trial], .seed = trial + 1});
-    ASSERT_EQ(r.problem, "") << folder;
-    for (std::size_t i = 0; i < e.g.ports.size(); ++i) {
-      ASSERT_EQ(r.outputs[i].size(), expected[i].size()) << e.g.ports[i].name << " in " << folder;
-      for (std::size_t t = 0; t < expected[i].size(); ++t) {
-        ASSERT_EQ(r.outputs[i][t], expected[i][t]) << e.g.ports[i].name << " token " << t << " in " << folder;
-      }
-    }
-    std::filesystem::remove_all(folder);
+    ASSERT_NO_FATAL_FAILURE(
+        expect_same(e.g, emit::emit_verilog(e.g, model, s), inputs, expected, {.gap_percent = gaps, .seed = trial}));
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(graphs, every_example, ::testing::ValuesIn(examples()),
                          [](const ::testing::TestParamInfo<example>& info) { return info.param.name; });
+
+class random_graphs : public ::testing::TestWithParam<unsigned> {};
+
+TEST_P(random_graphs, do_what_the_interpreter_does) {
+  const unsigned seed = GetParam();
+  graph g = dataflow::testing::random_graph(seed, {.operations = 60, .memories = false, .divisions = seed % 4 == 0});
+  g.name = "random_" + std::to_string(seed);
+  for (dataflow::register_state& r : g.registers) {
+    if (!r.initial) r.initial = llvm::APInt(r.width, 0);  // unspecified: the interpreter has 0, a simulator x
+  }
+  const schedule::delay_model model("generic");
+  schedule::options wanted{.period = 10};
+  schedule::result s;
+  try {
+    s = schedule::make_random_schedule(g, model, wanted, seed);
+  } catch (const schedule::infeasible& error) {
+    // Wide operations, long recurrences: what the error offers must work.
+    ASSERT_GT(error.smallest_period(), 10) << error.what();
+    wanted.period = error.smallest_period();
+    s = schedule::make_schedule(g, model, wanted);
+  }
+  ASSERT_EQ(schedule::validate(g, model, s), "");
+  const std::vector<token_list> inputs = random_inputs(g, 60, seed);
+  const std::string verilog = emit::emit_verilog(g, model, s);
+  const std::string folder = scratch_folder("lint-" + g.name);
+  EXPECT_EQ(lint(g, verilog, folder), "");
+  std::filesystem::remove_all(folder);
+  ASSERT_NO_FATAL_FAILURE(expect_same(g, verilog, inputs, interpret(g, inputs, 200),
+                                      {.gap_percent = 30, .seed = seed, .most_clocks = 4000}));
+}
+
+INSTANTIATE_TEST_SUITE_P(seeds, random_graphs, ::testing::Range(1u, 13u));
+
+TEST(throughput, is_one_iteration_a_clock_without_stalls) {
+  const schedule::delay_model model("ecp5");
+  for (const graph& g : {make_counter(), make_long_wait(40), make_histogram(4)}) {
+    std::vector<token_list> inputs = random_inputs(g, 500, 1);
+    const schedule::result s = schedule::make_schedule(g, model, {});
+    const std::string folder = scratch_folder("throughput-" + g.name);
+    const simulation_result r = simulate(g, emit::emit_verilog(g, model, s), inputs, folder, {});
+    ASSERT_EQ(r.problem, "") << folder;
+    EXPECT_LE(r.clocks, 500u + s.depth + 6) << g.name;
+    std::filesystem::remove_all(folder);
+  }
+}
+
+TEST(emit_verilog, is_the_same_every_time) {
+  const schedule::delay_model model("ecp5");
+  const graph g = make_block_matcher(6);
+  const schedule::result s = schedule::make_schedule(g, model, {});
+  const std::string first = emit::emit_verilog(g, model, s);
+  EXPECT_EQ(first, emit::emit_verilog(g, model, schedule::make_schedule(g, model, {})));
+  EXPECT_NE(first.find("module block_matcher ("), std::string::npos);
+}
+
+TEST(emit_verilog, keeps_the_heading_in_comments) {
+  const schedule::delay_model model("ecp5");
+  const graph g = make_counter();
+  const std::string text = emit::emit_verilog(g, model, schedule::make_schedule(g, model, {}),
+                                              {.delay_lines = {}, .heading = "first line\nsecond line"});
+  EXPECT_NE(text.find("\n// first line\n// second line\n"), std::string::npos) << text;
+}
+
+TEST(emit_verilog, names_values_after_the_source) {
+  graph g = make_adder_pipeline();
+  for (dataflow::node& n : g.nodes) {
+    if (n.kind == operation::add) n.name = "column.sum";
+  }
+  const schedule::delay_model model("ecp5");
+  const std::string text = emit::emit_verilog(g, model, schedule::make_schedule(g, model, {}));
+  EXPECT_NE(text.find("wire [31:0] column_sum = "), std::string::npos) << text;
+  EXPECT_NE(text.find("wire [31:0] column_sum_1 = "), std::string::npos) << text;
+  EXPECT_NE(text.find("// kernel.cpp:12"), std::string::npos) << text;
+}
+
+TEST(emit_verilog, survives_names_that_verilog_or_the_emitter_use) {
+  graph g = make_conditional_streams();
+  const char* const awkward[] = {"wire",   "fire", "clk",      "a_token",        "x_s3",
+                                 "9lives", "",     "\xc3\xa4", "s_axis_a_tdata", "valid"};
+  for (std::size_t i = 0; i < g.nodes.size(); ++i) g.nodes[i].name = awkward[i % std::size(awkward)];
+  g.registers[0].name = "reg";
+  g.registers[1].name = "running";
+  const schedule::delay_model model("ecp5");
+  const schedule::result s = schedule::make_schedule(g, model, {});
+  const std::string text = emit::emit_verilog(g, model, s);
+  const std::string folder = scratch_folder("awkward");
+  EXPECT_EQ(lint(g, text, folder), "");
+  std::filesystem::remove_all(folder);
+  const std::vector<token_list> inputs = random_inputs(g, 50, 3);
+  expect_same(g, text, inputs, interpret(g, inputs), {.gap_percent = 20, .seed = 9});
+}
+
+TEST(emit_verilog, refuses_ports_it_cannot_name) {
+  const schedule::delay_model model("ecp5");
+  const auto refuses = [&](auto change, const char* complaint) {
+    graph g = make_calls();
+    change(g);
+    const schedule::result s = schedule::make_schedule(g, model, {});
+    try {
+      (void)emit::emit_verilog(g, model, s);
+      ADD_FAILURE() << "accepted: " << complaint;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(complaint), std::string::npos) << error.what();
+    }
+  };
+  refuses([](graph& g) { g.name = "module"; }, "'module' cannot have that name");
+  refuses([](graph& g) { g.name = "two words"; }, "'two words' cannot have that name");
+  refuses([](graph& g) { g.ports[0].fields[0].signal = "clk"; }, "'clk' has the name of another signal");
+  refuses([](graph& g) { g.ports[0].fields[0].signal = "fire"; }, "'fire' has the name of a control signal");
+  refuses([](graph& g) { g.ports[0].fields[0].signal = "output"; }, "'output' cannot have that name");
+  refuses([](graph& g) { g.ports[0].fields[1].signal = "length"; }, "'length' has the name of another signal");
+}
+
+TEST(make_plan, puts_long_waits_into_ram) {
+  const schedule::delay_model model("ecp5");
+  const graph g = make_long_wait(60);
+  const schedule::result s = schedule::make_schedule(g, model, {});
+  const emit::plan p = emit::make_plan(g, model, s);
+  ASSERT_EQ(p.lines.size(), 1u);
+  EXPECT_EQ(p.lines[0].storage, schedule::storage_kind::block);
+  EXPECT_EQ(p.lines[0].width, 32u);
+  EXPECT_GT(p.lines[0].clocks(), 20);
+  const emit::plan without = emit::make_plan(g, model, s, {.distributed_clocks = 1000});
+  EXPECT_TRUE(without.lines.empty());
+  EXPECT_GT(without.copy_bits, p.copy_bits + 20 * 32);
+  // A target without LUT RAM keeps short waits in flip-flops.
+  const schedule::delay_model small("hx8k");
+  const graph shorter = make_long_wait(8);
+  for (const emit::delay_line& line :
+       emit::make_plan(shorter, small, schedule::make_schedule(shorter, small, {.period = 12})).lines) {
+    EXPECT_EQ(line.storage, schedule::storage_kind::block);
+  }
+}
+
+TEST(make_plan, gives_fifos_room_for_all_in_flight) {
+  const schedule::delay_model model("ecp5");
+  for (const unsigned chain : {1u, 12u, 60u}) {
+    const graph g = make_long_wait(chain);
+    const schedule::result s = schedule::make_schedule(g, model, {});
+    const emit::plan p = emit::make_plan(g, model, s);
+    ASSERT_EQ(p.fifos.size(), 1u);
+    EXPECT_GE(p.fifos[0].depth, static_cast<unsigned>(s.depth + 4));
+    EXPECT_EQ(p.fifos[0].depth & (p.fifos[0].depth - 1), 0u);
+  }
+}
 
 }  // namespace
 }  // namespace epiline::testing

@@ -211,9 +211,8 @@ graph make_all_operations() {
   const node_id c = b.slice(x, 13, 13);
   const node_id amount = b.slice(x, 26, 4);
   std::vector<node_id> results;
-  for (const operation kind :
-       {operation::add, operation::subtract, operation::multiply, operation::bit_and, operation::bit_or,
-        operation::bit_xor}) {
+  for (const operation kind : {operation::add, operation::subtract, operation::multiply, operation::bit_and,
+                               operation::bit_or, operation::bit_xor}) {
     results.push_back(b.binary(kind, a, c));
   }
   for (const operation kind : {operation::equal, operation::less_unsigned, operation::less_signed}) {
@@ -289,8 +288,8 @@ graph make_block_matcher(unsigned levels) {
       const node_id q = b.extend(b.slice(c, 8 * channel, 8), 9);
       const node_id d = b.binary(operation::subtract, p, q);
       const node_id negative = b.slice(d, 8, 1);
-      const node_id magnitude = b.select(negative, b.binary(operation::subtract, b.constant(8, 0), b.slice(d, 0, 8)),
-                                         b.slice(d, 0, 8));
+      const node_id magnitude =
+          b.select(negative, b.binary(operation::subtract, b.constant(8, 0), b.slice(d, 0, 8)), b.slice(d, 0, 8));
       const node_id wide = b.extend(magnitude, 10);
       total = total == dataflow::none ? wide : b.sum(total, wide);
     }
@@ -312,8 +311,8 @@ graph make_block_matcher(unsigned levels) {
     }
     b.line = 130;
     const auto [total, total_value] = b.state("window_sum", 18, 0);
-    const node_id net = b.add(operation::extend_sign, 18,
-                              {b.binary(operation::subtract, b.extend(sum, 16), b.extend(leaving, 16))});
+    const node_id net =
+        b.add(operation::extend_sign, 18, {b.binary(operation::subtract, b.extend(sum, 16), b.extend(leaving, 16))});
     const node_id cost = b.sum(total_value, net);
     b.set(total, cost, one);
     best.push_back({cost, b.constant(7, level)});
@@ -330,7 +329,8 @@ graph make_block_matcher(unsigned levels) {
     std::vector<candidate> next;
     for (std::size_t i = 0; i + 1 < best.size(); i += 2) {
       const node_id second = b.compare(operation::less_unsigned, best[i + 1].cost, best[i].cost);
-      next.push_back({b.select(second, best[i + 1].cost, best[i].cost), b.select(second, best[i + 1].level, best[i].level)});
+      next.push_back(
+          {b.select(second, best[i + 1].cost, best[i].cost), b.select(second, best[i + 1].level, best[i].level)});
     }
     if (best.size() % 2 == 1) next.push_back(best.back());
     best = std::move(next);

@@ -11,7 +11,8 @@ graph make_counter();
 graph make_adder_pipeline();
 /// Eight taps with constant coefficients, a shift register of samples.
 graph make_filter();
-/// A histogram in block RAM: read, add one, write; the source promises that a bin returns after 4 tokens at the earliest.
+/// A histogram in block RAM: read, add one, write; the source promises that a bin returns after 4 tokens at the
+/// earliest.
 graph make_histogram(unsigned distance);
 /// Reads `b` only when the token of `a` before asked for it, writes only odd sums.
 graph make_conditional_streams();
