@@ -23,43 +23,60 @@ class raster {
   using row_t = ap_uint<bits_for(Schedule::maximum_rows + Schedule::padding_rows + 1)>;
 
   /// Begins a frame of `beats` x `rows` (both at least 1).
-  raster(beats_t beats, rows_t rows) : beat_(0), row_(0), beats_(beats), rows_(rows) {
-    const beat_t wanted = beats + Schedule::padding_beats - 1;
-    last_beat_ = wanted < Schedule::minimum_row_beats - 1 ? beat_t(Schedule::minimum_row_beats - 1) : wanted;
+  raster(beats_t beats, rows_t rows)
+      : beat_(0), row_(0), in_rows_(true), in_columns_(true), in_frame_(true), in_flush_(false) {
+    last_frame_beat_ = beats - 1;
+    last_frame_row_ = rows - 1;
     last_padding_row_ = rows + Schedule::padding_rows - 1;
-    flush_row_ = rows + Schedule::padding_rows;
+    const beat_t wanted = last_frame_beat_ + Schedule::padding_beats;
+    last_row_beat_ = wanted < Schedule::minimum_row_beats - 1 ? beat_t(Schedule::minimum_row_beats - 1) : wanted;
   }
 
   beat_t beat() const { return beat_; }
   row_t row() const { return row_; }
   /// The beat lies in the columns of the frame.
-  bool in_columns() const { return beat_ < beats_; }
-  /// The beat is one of the frame.
-  bool in_frame() const { return row_ < rows_ && in_columns(); }
-  bool in_flush() const { return row_ == flush_row_; }
+  bool in_columns() const { return in_columns_; }
+  /// The beat is one of the frame: streams are read.
+  bool in_frame() const { return in_frame_; }
+  bool in_flush() const { return in_flush_; }
 
   /// Goes on to the next iteration; false after the last one.
   bool advance() {
-    const bool row_ends = beat_ == last_beat_;
-    const bool more = !(row_ends && row_ == flush_row_);
+    const bool row_ends = in_flush_ ? beat_ == Schedule::flush_beats - 1 : beat_ == last_row_beat_;
+    const bool columns_end = beat_ == last_frame_beat_;
+    const bool more = !(row_ends && in_flush_);
     if (row_ends) {
-      if (row_ == last_padding_row_) last_beat_ = Schedule::flush_beats - 1;
+      in_rows_ = in_rows_ && row_ != last_frame_row_;
+      if (row_ == last_padding_row_) in_flush_ = true;
       row_ = row_ + 1;
       beat_ = 0;
+      in_columns_ = true;
+      in_frame_ = in_rows_;
     } else {
       beat_ = beat_ + 1;
+      if (columns_end) {
+        in_columns_ = false;
+        in_frame_ = false;
+      }
     }
     return more;
   }
 
  private:
+  // Where the walk is: every flag is a register of its own, so that what depends on it (the reading of streams) does
+  // not wait for a comparison.
   beat_t beat_;
   row_t row_;
-  beats_t beats_;
-  rows_t rows_;
-  beat_t last_beat_;  // of the current row
+  bool in_rows_;
+  bool in_columns_;
+  bool in_frame_;
+  bool in_flush_;
+  // Constants of the frame, which nothing changes on the way: their making may take its time before the first beat.
+  // Comparing for equality is quicker than for order.
+  beat_t last_row_beat_;  // of every row but the flush
+  beat_t last_frame_beat_;
+  row_t last_frame_row_;
   row_t last_padding_row_;
-  row_t flush_row_;
 };
 
 }  // namespace epiline::window
