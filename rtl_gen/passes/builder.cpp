@@ -102,7 +102,7 @@ node_id builder::resize_sign(node_id a, unsigned width) {
 }
 
 void builder::suggest_name(node_id id, const std::string& name) {
-  if (id != none && !is_constant(id) && at(id).name.empty()) g_.nodes[id].name = name;
+  if (!is_constant(id) && at(id).name.empty()) g_.nodes[id].name = name;
 }
 
 std::uint64_t builder::hash_of(const node& n) const {
@@ -176,8 +176,15 @@ void rebuild(graph& g, const std::function<node_id(builder&, node, node_id)>& re
     const std::string name = std::move(n.name);
     n.name.clear();
     for (node_id& operand : n.operands) operand = replacement[operand];
+    const auto first_new = static_cast<node_id>(result.nodes.size());
     replacement[id] = rewrite(b, std::move(n), id);
-    if (!name.empty()) b.suggest_name(replacement[id], name);
+    if (name.empty() || replacement[id] == none) continue;
+    b.suggest_name(replacement[id], name);
+    // Extensions tend to vanish; what was extended is the value people know.
+    node_id kept = replacement[id];
+    while (kept >= first_new && (b.kind(kept) == operation::extend_zero || b.kind(kept) == operation::extend_sign))
+      kept = b.operand(kept, 0);
+    if (kept >= first_new) b.suggest_name(kept, name);
   }
   for (register_id r = 0; r < result.registers.size(); ++r) {
     auto& state = result.registers[r];

@@ -64,7 +64,7 @@ class builder {
 
   /// New nodes come from this source line from now on.
   void set_origin(dataflow::source_location where) { where_ = where; }
-  /// Names a node that has no name yet; constants and `none` take no name.
+  /// Names a node that has no name yet; constants take none.
   void suggest_name(node_id id, const std::string& name);
 
   graph& target() { return g_; }

@@ -1,5 +1,6 @@
 #include "passes/merge_registers.hpp"
 
+#include <array>
 #include <map>
 #include <vector>
 
@@ -20,11 +21,10 @@ class numbering {
         classes;  // all registers of one initial value start in one class
     for (register_id r = 0; r < g.registers.size(); ++r) {
       const auto& state = g.registers[r];
-      std::vector<std::uint64_t> key = {state.width, state.patient};
+      // One without an initial value must not stand for one that has it: hardware would not reset it.
+      std::vector<std::uint64_t> key = {state.width, state.patient, state.initial.has_value()};
       if (state.initial)
         key.insert(key.end(), state.initial->getRawData(), state.initial->getRawData() + state.initial->getNumWords());
-      else
-        key.resize(key.size() + (state.width + 63) / 64, 0);
       class_of_[r] = classes.try_emplace(std::move(key), static_cast<std::uint32_t>(classes.size())).first->second;
     }
     count_ = static_cast<std::uint32_t>(classes.size());

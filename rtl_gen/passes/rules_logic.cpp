@@ -1,4 +1,6 @@
 // Rules for and, or, xor, not and select.
+#include <algorithm>
+
 #include "passes/rules.hpp"
 
 namespace epiline::passes {
@@ -12,18 +14,27 @@ bool is_not_of(const builder& b, node_id a, node_id of) {
   return b.kind(a) == operation::bit_not && b.operand(a, 0) == of;
 }
 
+/// How many pieces pieces_of() makes of a value.
+std::size_t count_pieces(const builder& b, node_id id) {
+  if (b.kind(id) == operation::extend_zero) return 1 + count_pieces(b, b.operand(id, 0));
+  if (b.kind(id) == operation::concat) return b.at(id).operands.size();
+  if (!b.is_constant(id)) return 1;
+  const llvm::APInt value = b.value(id);
+  return 1 + (value ^ value.ashr(1)).popcount();
+}
+
 /// and, or, xor of two operands of which one has constant pieces: done piece by piece, constant pieces being wires.
 node_id by_pieces(builder& b, const node& n) {
-  const auto has_pieces = [&](node_id id) {
+  const auto has_constant = [&](node_id id) {
     if (b.kind(id) == operation::extend_zero || b.is_constant(id)) return true;
     if (b.kind(id) != operation::concat) return false;
-    for (const node_id part : b.at(id).operands)
-      if (b.is_constant(part)) return true;
-    return false;
+    const auto& parts = b.at(id).operands;
+    return std::any_of(parts.begin(), parts.end(), [&](node_id part) { return b.is_constant(part); });
   };
-  if (!has_pieces(n.operands[0]) && !has_pieces(n.operands[1])) return none;
+  if (!has_constant(n.operands[0]) && !has_constant(n.operands[1])) return none;
+  const std::size_t pieces = count_pieces(b, n.operands[0]) + count_pieces(b, n.operands[1]);
+  if (pieces == 2 || pieces > max_pieces) return none;
   const std::vector<node_id> x = pieces_of(b, n.operands[0]), y = pieces_of(b, n.operands[1]);
-  if (x.size() + y.size() > max_pieces || (x.size() == 1 && y.size() == 1)) return none;
   // Cut both where either is cut. A cut that frees no constant piece would only split an operation: those are joined.
   struct segment {
     unsigned low, width;

@@ -25,7 +25,7 @@ using dataflow::print;
 using dataflow::testing::find_difference;
 using dataflow::testing::random_graph;
 
-constexpr std::uint64_t seeds = 400;
+constexpr std::uint64_t seeds = 150;
 constexpr unsigned iterations = 40;
 
 void check(const std::function<void(graph&)>& pass) {

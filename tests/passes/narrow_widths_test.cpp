@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "dataflow/interpreter.hpp"
 #include "dataflow/random_graph.hpp"
 #include "dataflow/small_graph.hpp"
@@ -203,6 +205,20 @@ TEST(narrow_widths, tables_lose_bits_that_are_zero_or_unused) {
   s.g.tables.push_back({"rom", 16, {APInt(16, 3), APInt(16, 9)}, {}});
   s.write("out", s.make(op::table, 16, {s.read("a", 1)}, 0));
   EXPECT_EQ(narrowed(s.g).tables[0].width, 4u);
+}
+
+TEST(narrow_widths, a_narrowed_value_keeps_its_name) {
+  small_graph s;
+  const node_id a = s.make(op::extend_zero, 32, {s.read("a", 8)}), b = s.make(op::extend_zero, 32, {s.read("b", 8)});
+  const node_id sum = s.make(op::add, 32, {a, b});
+  s.g.nodes[sum].name = "total";
+  s.write("out", s.make(op::slice, 9, {sum}));
+  const graph after = narrowed(s.g);
+  const auto found =
+      std::find_if(after.nodes.begin(), after.nodes.end(), [](const node& n) { return n.kind == op::add; });
+  ASSERT_NE(found, after.nodes.end());
+  EXPECT_EQ(found->width, 9u);
+  EXPECT_EQ(found->name, "total");
 }
 
 TEST(demanded_bits, follow_the_operations) {

@@ -202,6 +202,31 @@ TEST(simplify, names_and_lines_survive) {
   EXPECT_EQ(found->where.line, 7u);
 }
 
+TEST(simplify, wide_masks_of_many_runs_stay_one_operation) {
+  small_graph s;
+  APInt mask(4096, 0);
+  for (unsigned i = 0; i < 4096; i += 2) mask.setBit(i);
+  s.write("out", s.make(op::bit_and, 4096, {s.read("in", 4096), s.constant(mask)}));
+  const graph after = run(s.g, simplify);
+  EXPECT_EQ(count(after, op::bit_and), 1u);
+  EXPECT_LE(after.nodes.size(), s.g.nodes.size());
+}
+
+TEST(merge_registers, one_without_an_initial_value_does_not_stand_for_one_that_has_it) {
+  small_graph s;
+  const node_id in = s.read("in", 8);
+  const auto unspecified = s.add_register("unspecified", 8, 0), zero = s.add_register("zero", 8, 0);
+  s.g.registers[unspecified].initial.reset();
+  s.update(unspecified, in);
+  s.update(zero, in);
+  s.write("out", s.make(op::concat, 16, {s.value_of(unspecified), s.value_of(zero)}));
+  const graph after = run(s.g, [](graph& g) {
+    merge_registers(g);
+    remove_dead(g);
+  });
+  EXPECT_EQ(after.registers.size(), 2u);
+}
+
 TEST(remove_dead, removes_what_no_output_needs_and_renumbers) {
   small_graph s;
   const node_id in = s.read("in", 8), one = s.constant(1, 1);
