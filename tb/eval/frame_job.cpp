@@ -40,7 +40,7 @@ void check_outputs(const job_options& options) {
     if (path.empty()) continue;
     require_writable(path);
     if (std::filesystem::is_character_file(path)) continue;
-    if (!seen.insert(std::filesystem::weakly_canonical(path)).second) {
+    if (!seen.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(path))).second) {
       throw usage_error(fmt::format("{} is named for two outputs; give each a file of its own", path));
     }
   }

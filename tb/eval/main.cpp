@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #ifdef EPILINE_HAS_COSIM
 #include "cosim/engines.hpp"
@@ -18,6 +22,19 @@ namespace {
 int fail(std::string_view message, int exit_code) {
   fmt::print(stderr, "epiline: error: {}\n", message);
   return exit_code;
+}
+
+/// CLI11 calls a wrong subcommand a missing one; name it.
+void require_known_subcommand(const CLI::App& application, std::string_view name) {
+  std::vector<std::string> names;
+  for (const auto* command : application.get_subcommands({})) names.push_back(command->get_name());
+  if (std::ranges::find(names, name) != names.end()) return;
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  const auto closest = epiline::eval::closest_name(name, known);
+  throw CLI::ExtrasError(
+      fmt::format("unknown command '{}'{}; commands: {}", name,
+                  closest.empty() ? "" : fmt::format(" (did you mean {}?)", closest), fmt::join(known, ", ")),
+      CLI::ExitCodes::ExtrasError);
 }
 
 }  // namespace
@@ -39,6 +56,7 @@ int main(int argc, char** argv) {
     epiline::eval::add_match_command(application, registry);
     epiline::eval::add_compare_command(application, registry, exit_code);
     try {
+      if (argc > 1 && argv[1][0] != '-') require_known_subcommand(application, argv[1]);
       application.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
       if (error.get_exit_code() == 0) return application.exit(error);  // --help, --version
