@@ -34,22 +34,30 @@ class right_winner {
 
   right_beat step(const costs_t& costs) {
 #pragma HLS INLINE
-    cost_t lowest[entries];
-    disparity_t disparity[entries];
-    for (int entry = 0; entry < entries; ++entry) {
-      lowest[entry] = entry < lanes ? cost_t(~cost_t(0)) : lowest_[entry];
-      disparity[entry] = entry < lanes ? disparity_t(0) : disparity_[entry];
-    }
     // Entry e belongs to the right pixel e columns left of the newest lane, so lane l is its partner at level
-    // e - (lanes - 1 - l).
-    for (int lane = 0; lane < lanes; ++lane) {
+    // e - (lanes - 1 - l). The lanes of a beat compete among themselves first: the chain holds one comparison a step,
+    // and need not be skewed over the pipeline.
+    cost_t offered[entries];
+    disparity_t level[entries];
+    for (int entry = 0; entry < entries; ++entry) {
+      offered[entry] = entry < levels ? costs.at[lanes - 1][entry < levels ? entry : 0] : cost_t(~cost_t(0));
+      level[entry] = entry < levels ? window::indices<entries>.of[entry] : 0;
+    }
+    for (int lane = lanes - 2; lane >= 0; --lane) {
       const int first = lanes - 1 - lane;
       for (int d = 0; d < levels; ++d) {
         const cost_t cost = costs.at[lane][d];
-        const bool better = cost < lowest[first + d];
-        lowest[first + d] = better ? cost : lowest[first + d];
-        disparity[first + d] = better ? disparity_t(window::indices<levels>.of[d]) : disparity[first + d];
+        const bool better = cost <= offered[first + d];  // of two lanes the left one has the smaller level
+        offered[first + d] = better ? cost : offered[first + d];
+        level[first + d] = better ? disparity_t(window::indices<levels>.of[d]) : level[first + d];
       }
+    }
+    cost_t lowest[entries];
+    disparity_t disparity[entries];
+    for (int entry = 0; entry < entries; ++entry) {
+      const bool better = entry < lanes || offered[entry] < lowest_[entry];
+      lowest[entry] = better ? offered[entry] : lowest_[entry];
+      disparity[entry] = better ? level[entry] : disparity_[entry];
     }
     right_beat finished;
     for (int lane = 0; lane < lanes; ++lane) finished.disparity[lane] = disparity[entries - 1 - lane];
