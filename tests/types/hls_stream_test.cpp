@@ -56,8 +56,8 @@ TEST_F(hls_stream, has_the_vendors_spellings) {
   EXPECT_TRUE(s.empty());
 }
 
-int drain(hls::stream<int>& s) {
-  int sum = 0;
+long long drain(hls::stream<int>& s) {
+  long long sum = 0;
   while (!s.empty()) sum += s.read();
   return sum;
 }
