@@ -105,7 +105,7 @@ json make_report(const graph& g, const schedule::delay_model& model, const sched
     if (f.depth > 64) {
       block_rams += model.blocks(f.depth, port.width);
     } else {
-      fifo_luts += 1.5 * port.width * ((f.depth + 15) / 16);
+      fifo_luts += model.distributed_area(f.depth, port.width);
     }
   }
   report["latency_clocks"] = latency;
@@ -197,7 +197,7 @@ json make_report(const graph& g, const schedule::delay_model& model, const sched
     const bool block = l.storage == storage_kind::block;
     const unsigned blocks = block ? model.blocks(static_cast<std::uint64_t>(l.words()), l.width) : 0;
     block_rams += blocks;
-    if (!block) luts += 1.5 * l.width * ((l.words() + 15) / 16);
+    if (!block) luts += model.distributed_area(static_cast<std::uint64_t>(l.words()), l.width);
     lines.push_back({{"from", l.from},
                      {"to", l.to},
                      {"width", l.width},

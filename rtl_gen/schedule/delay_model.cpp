@@ -62,6 +62,9 @@ constexpr delay_parameters generic{.launch = 1.00,
                                    .block_bits = 18432,
                                    .block_max_width = 36};
 
+// LUTs that one block RAM has to save to be preferred: what a device has of both, roughly (ECP5-85F: 84k and 208).
+constexpr double luts_worth_a_block = 100;
+
 bool is_constant(const graph& g, node_id id) { return g.nodes[id].kind == operation::constant; }
 
 bool has_constant_operand(const graph& g, const node& n) {
@@ -272,7 +275,7 @@ double delay_model::area(const graph& g, node_id id) const {
     case operation::memory_read: {
       const dataflow::memory& m = g.memories[n.object];
       if (storage(m) == storage_kind::block) return 0;
-      return 1.5 * n.width * ((m.words + 15) / 16);
+      return distributed_area(m.words, n.width);
     }
     default:
       return 0;
@@ -280,7 +283,14 @@ double delay_model::area(const graph& g, node_id id) const {
 }
 
 storage_kind delay_model::storage(const dataflow::memory& m) const {
-  return m.words <= parameters_.distributed_max_words ? storage_kind::distributed : storage_kind::block;
+  if (m.words > parameters_.distributed_max_words) return storage_kind::block;
+  // A wide memory of few words: LUT RAM only while a block RAM in its place would save few LUTs.
+  const double luts = distributed_area(m.words, m.width);
+  return luts >= luts_worth_a_block * blocks(m.words, m.width) ? storage_kind::block : storage_kind::distributed;
+}
+
+double delay_model::distributed_area(std::uint64_t words, std::uint64_t width) const {
+  return 1.5 * static_cast<double>(width) * static_cast<double>((words + 15) / 16);
 }
 
 storage_kind delay_model::storage(const dataflow::table& t) const {

@@ -1,6 +1,7 @@
 #pragma once
 // What one operation costs on a target: nanoseconds, LUTs, clocks of a memory. Estimates for scheduling and reports.
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -56,6 +57,8 @@ class delay_model {
 
   [[nodiscard]] storage_kind storage(const dataflow::memory& m) const;
   [[nodiscard]] storage_kind storage(const dataflow::table& t) const;
+  /// LUT4 that `words` words of `width` bits take as LUT RAM.
+  [[nodiscard]] double distributed_area(std::uint64_t words, std::uint64_t width) const;
   /// Block RAMs that one copy of `words` words of `width` bits takes.
   [[nodiscard]] unsigned blocks(std::uint64_t words, std::uint64_t width) const;
 

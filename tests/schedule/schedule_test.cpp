@@ -76,6 +76,23 @@ TEST(delay_model, counts_block_rams_like_yosys) {
   EXPECT_EQ(model.blocks(16385, 1), 2u);
 }
 
+TEST(delay_model, puts_wide_memories_of_few_words_into_block_ram) {
+  const delay_model ecp5("ecp5");
+  dataflow::memory m;
+  m.words = 32;
+  m.width = 8;
+  EXPECT_EQ(ecp5.storage(m), schedule::storage_kind::distributed);
+  EXPECT_EQ(delay_model("hx8k").storage(m), schedule::storage_kind::block);  // has no LUT RAM
+  m.width = 1280;
+  EXPECT_EQ(ecp5.storage(m), schedule::storage_kind::block);
+  EXPECT_GT(ecp5.distributed_area(m.words, m.width), 100.0 * ecp5.blocks(m.words, m.width));
+  m.words = 16;
+  EXPECT_EQ(ecp5.storage(m), schedule::storage_kind::distributed);
+  m.words = 65;
+  m.width = 1;
+  EXPECT_EQ(ecp5.storage(m), schedule::storage_kind::block);
+}
+
 TEST(make_schedule, puts_what_fits_into_one_stage) {
   const delay_model model("ecp5");
   const graph g = make_accumulator(16, 1);
