@@ -2,6 +2,8 @@
 // Colour pixels: how they lie in a video beat, and the difference of two of them.
 #include <ap_int.h>
 
+#include "window/window.hpp"
+
 namespace epiline::kernels {
 
 /// Bits of one pixel in a video beat: red in bits 7..0, green in 15..8, blue in 23..16; lane 0 in the low bits.
@@ -30,37 +32,30 @@ inline absolute_difference_t absolute_difference(ap_uint<8> a, ap_uint<8> b) {
   return difference < 0 ? ap_int<9>(-difference) : difference;
 }
 
-/// The newest `Length` pixels of a row, one array a channel. Tap 0 is the last lane of the newest beat, the pixel
-/// nearest to the right edge.
+/// The newest `Length` pixels of a row, one window a channel, so that a level's differences lie side by side in memory.
 ///
 /// Border policy: left of the row's first pixel stand `BorderPixels` copies of it. Further taps still hold the row
 /// before: they belong to candidates that are not allowed to win (d > x), whatever they cost.
 template <int Lanes, int Length, int BorderPixels>
 class pixel_taps {
  public:
-  static_assert(Length >= Lanes);
-
   void step(const color (&beat)[Lanes], bool row_starts) {
 #pragma HLS INLINE
-    for (int tap = Length - 1; tap >= Lanes; --tap) red[tap] = red[tap - Lanes];
-    for (int tap = Length - 1; tap >= Lanes; --tap) green[tap] = green[tap - Lanes];
-    for (int tap = Length - 1; tap >= Lanes; --tap) blue[tap] = blue[tap - Lanes];
-    for (int lane = 0; lane < Lanes; ++lane) set(Lanes - 1 - lane, beat[lane]);
-    if (row_starts) {
-      for (int tap = Lanes; tap < Lanes + BorderPixels && tap < Length; ++tap) set(tap, beat[0]);
+    ap_uint<8> channel[3][Lanes];
+    for (int lane = 0; lane < Lanes; ++lane) {
+      channel[0][lane] = beat[lane].red;
+      channel[1][lane] = beat[lane].green;
+      channel[2][lane] = beat[lane].blue;
     }
+    red.step(channel[0], row_starts);
+    green.step(channel[1], row_starts);
+    blue.step(channel[2], row_starts);
   }
 
-  ap_uint<8> red[Length];
-  ap_uint<8> green[Length];
-  ap_uint<8> blue[Length];
-
- private:
-  void set(int tap, const color& pixel) {
-    red[tap] = pixel.red;
-    green[tap] = pixel.green;
-    blue[tap] = pixel.blue;
-  }
+  using channel_window = window::row_window<ap_uint<8>, Lanes, Length, window::replicated_border<BorderPixels>>;
+  channel_window red;
+  channel_window green;
+  channel_window blue;
 };
 
 }  // namespace epiline::kernels

@@ -70,9 +70,9 @@ class color_sad {
       const color pixel = left_pixels[lane];
       for (int d = 0; d < levels; ++d) {
         const int tap = lanes - 1 - lane + d;
-        result.at[lane][d] = absolute_difference(pixel.red, history.red[tap]) +
-                             absolute_difference(pixel.green, history.green[tap]) +
-                             absolute_difference(pixel.blue, history.blue[tap]);
+        result.at[lane][d] = absolute_difference(pixel.red, history.red.tap[tap]) +
+                             absolute_difference(pixel.green, history.green.tap[tap]) +
+                             absolute_difference(pixel.blue, history.blue.tap[tap]);
       }
     }
     return result;

@@ -5,6 +5,7 @@
 #include "kernels/fuzzy_inference.hpp"
 #include "kernels/fuzzy_rule_base.hpp"
 #include "window/bits.hpp"
+#include "window/window.hpp"
 
 namespace epiline::kernels {
 
@@ -31,13 +32,13 @@ class fuzzy_filter {
   /// Takes the newest beat, returns the one of `delay_beats` steps ago: filtered, or unchanged if not `enabled`.
   beat step(const beat& newest, bool enabled, bool careful_fill) {
 #pragma HLS INLINE
-    for (int tap = taps - 1; tap >= lanes; --tap) row_[tap] = row_[tap - lanes];
-    for (int lane = 0; lane < lanes; ++lane) row_[lanes - 1 - lane] = newest.pixel[lane];
+    row_.step(newest.pixel, false);
     beat result;
     for (int lane = 0; lane < lanes; ++lane) {
       const int tap = delay_beats * lanes + lanes - 1 - lane;
-      const disparity_pixel filtered = filter(row_[tap], row_[tap + radius], row_[tap - radius], careful_fill);
-      result.pixel[lane] = enabled ? filtered : row_[tap];
+      const disparity_pixel filtered =
+          filter(row_.tap[tap], row_.tap[tap + radius], row_.tap[tap - radius], careful_fill);
+      result.pixel[lane] = enabled ? filtered : row_.tap[tap];
     }
     result.marks = marks_[delay_beats - 1];
     for (int i = delay_beats - 1; i > 0; --i) marks_[i] = marks_[i - 1];
@@ -87,7 +88,7 @@ class fuzzy_filter {
     return difference < 0 ? ap_int<8>(-difference) : difference;
   }
 
-  disparity_pixel row_[taps];  // [0] = the last lane of the newest beat
+  window::row_window<disparity_pixel, lanes, taps, window::previous_row_border> row_;
   beat_marks marks_[delay_beats];
 };
 

@@ -45,9 +45,9 @@ void expect_taps() {
         const int column = x + Lanes - 1 - tap;
         if (column < -border) continue;
         const int pixel = std::max(column, 0);
-        EXPECT_EQ(taps.red[tap], row * 80 + pixel) << Lanes << ' ' << x << ' ' << tap;
-        EXPECT_EQ(taps.green[tap], pixel);
-        EXPECT_EQ(taps.blue[tap], 255 - pixel);
+        EXPECT_EQ(taps.red.tap[tap], row * 80 + pixel) << Lanes << ' ' << x << ' ' << tap;
+        EXPECT_EQ(taps.green.tap[tap], pixel);
+        EXPECT_EQ(taps.blue.tap[tap], 255 - pixel);
       }
     }
   }

@@ -1,3 +1,5 @@
+#include "window/window.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,6 +34,41 @@ TEST(line_buffer, returns_the_rows_above_of_the_same_column) {
       for (int k = 0; k < rows && k < y; ++k) EXPECT_EQ(above.rows[k], (written[{x, y - 1 - k}])) << x << ' ' << y;
     }
   }
+}
+
+/// Rows of 8 pixels numbered on from row to row; expected(tap's column, row) is the pixel number there.
+template <int Lanes, class Border, class Expected>
+void expect_row_window(Expected expected) {
+  constexpr int row_pixels = 8;
+  constexpr int length = Lanes + 5;
+  row_window<int, Lanes, length, Border> row{};
+  for (int y = 0; y < 3; ++y) {
+    for (int x = 0; x < row_pixels; x += Lanes) {
+      int beat[Lanes];
+      for (int lane = 0; lane < Lanes; ++lane) beat[lane] = 1 + y * row_pixels + x + lane;
+      row.step(beat, x == 0);
+      for (int i = 0; i < length; ++i) {
+        const int column = x + Lanes - 1 - i;
+        EXPECT_EQ(row.tap[i], expected(column, y))
+            << "lanes " << Lanes << ", row " << y << ", x " << x << ", tap " << i;
+      }
+    }
+  }
+}
+
+TEST(row_window, holds_the_end_of_the_row_before) {
+  const auto pixel = [](int column, int y) { return std::max(1 + y * 8 + column, 0); };
+  expect_row_window<1, previous_row_border>(pixel);
+  expect_row_window<2, previous_row_border>(pixel);
+  expect_row_window<4, previous_row_border>(pixel);
+}
+
+TEST(row_window, replicates_the_first_pixel_of_the_row) {
+  // All columns that a window of this length can reach are within the border.
+  const auto pixel = [](int column, int y) { return 1 + y * 8 + std::max(column, 0); };
+  expect_row_window<1, replicated_border<5>>(pixel);
+  expect_row_window<2, replicated_border<5>>(pixel);
+  expect_row_window<4, replicated_border<9>>(pixel);
 }
 
 template <int Length>
