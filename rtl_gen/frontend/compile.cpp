@@ -90,12 +90,29 @@ std::string wrapper_source(const source_options& options) {
       fs::absolute(options.source).lexically_normal().string(), wrapper_file, process_name, options.top, options.top);
 }
 
+/// The first line of the source that names the top followed by a parenthesis; 1 when there is none.
+unsigned line_of(const source_options& options) {
+  const std::string base = options.top.substr(options.top.rfind(':') + 1);
+  std::ifstream in(options.source);
+  std::string text;
+  for (unsigned line = 1; std::getline(in, text); ++line) {
+    const std::size_t at = text.find(base);
+    if (at == std::string::npos) continue;
+    if (llvm::StringRef(text).drop_front(at + base.size()).ltrim().starts_with("(")) return line;
+  }
+  return 1;
+}
+
 [[noreturn]] void refuse_compilation(const source_options& options, const std::string& messages) {
-  if (messages.find(std::string(wrapper_file) + ":1:") == std::string::npos)
+  if (messages.find(std::string(wrapper_file) + ":1:") == std::string::npos && messages.find("the top returns a value") == std::string::npos)
     throw refused(messages + fmt::format("error: {} does not compile (clang's messages above)", options.source));
   if (messages.find("no member named") != std::string::npos || messages.find("undeclared") != std::string::npos)
     throw refused(fmt::format("{}: error: there is no function '{}' in this file: name the function to synthesize with --top",
                               options.source, options.top));
+  if (messages.find("the top returns a value") != std::string::npos)
+    throw refused(fmt::format("{}:{}: error: top '{}' returns a value: a top returns void; give results through an "
+                              "hls::stream or a scalar by reference",
+                              options.source, line_of(options), options.top));
   throw refused(messages + fmt::format("{}: error: '{}' cannot be a top: a top is one function (not overloaded, not a "
                                        "template) that returns void and takes hls::stream references and scalars",
                                        options.source, options.top));

@@ -96,7 +96,7 @@ class unroller {
       for (const llvm::Instruction& instruction : *block) accesses = accesses || is_port_access(instruction);
     if (marked && most == 0)
       refuse(place_of(*header->getFirstNonPHI()), "#pragma HLS UNROLL on a loop whose number of trips is not known: bound it by a constant and leave early with a condition");
-    if (!accesses && loop.hasNoExitBlocks() && loop.getLoopDepth() > 1)
+    if (!accesses && loop.hasNoExitBlocks())
       refuse(place_of(*header->getFirstNonPHI()), "endless loop without stream access: it can never give a result; bound it or access a stream in it");
     bool unroll = marked;
     if (!marked && marks_.pipelined.count(header) == 0 && !accesses && most != 0)
@@ -201,6 +201,24 @@ void look_ahead(llvm::Function& function, llvm::FunctionAnalysisManager& analyse
       next->replaceAllUsesWith(ahead);
       next->eraseFromParent();
     }
+  }
+}
+
+void narrow_counters(llvm::Function& function, llvm::FunctionAnalysisManager& analyses) {
+  auto& loops = analyses.getResult<llvm::LoopAnalysis>(function);
+  auto& evolution = analyses.getResult<llvm::ScalarEvolutionAnalysis>(function);
+  std::vector<std::pair<llvm::PHINode*, unsigned>> counters;
+  for (llvm::Loop* loop : loops.getLoopsInPreorder())
+    for (llvm::PHINode& phi : loop->getHeader()->phis()) {
+      if (!phi.getType()->isIntegerTy() || !evolution.isSCEVable(phi.getType())) continue;
+      const unsigned needed = std::max(1u, evolution.getUnsignedRangeMax(evolution.getSCEV(&phi)).getActiveBits());
+      if (needed < phi.getType()->getIntegerBitWidth()) counters.emplace_back(&phi, needed);
+    }
+  for (const auto& [phi, width] : counters) {
+    llvm::IRBuilder<> builder(phi->getParent(), phi->getParent()->getFirstInsertionPt());
+    llvm::Value* const low = builder.CreateTrunc(phi, builder.getIntNTy(width), phi->getName());
+    llvm::Value* const same = builder.CreateZExt(low, phi->getType());
+    phi->replaceUsesWithIf(same, [low = low](const llvm::Use& use) { return use.getUser() != low; });
   }
 }
 

@@ -21,4 +21,8 @@ void rotate_loops(llvm::Function& function, llvm::FunctionAnalysisManager& analy
 /// wait for the increment: compare and add take place side by side, not one after the other in one clock.
 void look_ahead(llvm::Function& function, llvm::FunctionAnalysisManager& analyses);
 
+/// Writes what is known of the range of loop counters into the code, as truncation and zero extension: C++ counts in
+/// 32 bits where 10 would do.
+void narrow_counters(llvm::Function& function, llvm::FunctionAnalysisManager& analyses);
+
 }  // namespace epiline::frontend

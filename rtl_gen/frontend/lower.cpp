@@ -368,6 +368,8 @@ lowered_process lower(compiled_source& source, const source_options& options) {
   managers.function.invalidate(process, llvm::PreservedAnalyses::none());
   run_passes(process, managers, late_cleanup());
   look_ahead(process, managers.function);
+  managers.function.invalidate(process, llvm::PreservedAnalyses::none());
+  narrow_counters(process, managers.function);
   return result;
 }
 

@@ -1,5 +1,6 @@
 #include "frontend/pointer_choices.hpp"
 
+#include <llvm/IR/Dominators.h>
 #include <llvm/IR/IRBuilder.h>
 #include <llvm/IR/InstIterator.h>
 #include <llvm/IR/Instructions.h>
@@ -21,9 +22,13 @@ bool writes_between(const llvm::PHINode& from, const Instruction& to) {
   return false;
 }
 
-llvm::PHINode* pointer_phi(Value* pointer) {
+/// The phi that chooses among addresses; not one that steps through an array, pass by pass of a loop.
+llvm::PHINode* pointer_phi(Value* pointer, const llvm::DominatorTree& dominators) {
   auto* phi = llvm::dyn_cast<llvm::PHINode>(pointer);
-  return phi != nullptr && phi->getType()->isPointerTy() ? phi : nullptr;
+  if (phi == nullptr || !phi->getType()->isPointerTy()) return nullptr;
+  for (const llvm::BasicBlock* from : phi->blocks())
+    if (dominators.dominates(phi->getParent(), from)) return nullptr;
+  return phi;
 }
 
 /// Whether a getelementptr can be made anew at the end of each block the phi comes from.
@@ -59,9 +64,9 @@ void spread_over_phi(Instruction& user, llvm::PHINode& phi, const Make& make) {
 }
 
 /// One step on one instruction; returns whether it changed (and may be gone).
-bool resolve(Instruction& user) {
+bool resolve(Instruction& user, const llvm::DominatorTree& dominators) {
   if (auto* load = llvm::dyn_cast<llvm::LoadInst>(&user)) {
-    if (llvm::PHINode* phi = pointer_phi(load->getPointerOperand()); phi != nullptr && !writes_between(*phi, *load)) {
+    if (llvm::PHINode* phi = pointer_phi(load->getPointerOperand(), dominators); phi != nullptr && !writes_between(*phi, *load)) {
       spread_over_phi(*load, *phi, [&](llvm::IRBuilderBase& builder, Value* from) { return builder.CreateLoad(load->getType(), from); });
       return true;
     }
@@ -74,7 +79,7 @@ bool resolve(Instruction& user) {
       return true;
     }
   } else if (auto* element = llvm::dyn_cast<llvm::GetElementPtrInst>(&user)) {
-    if (llvm::PHINode* phi = pointer_phi(element->getPointerOperand()); phi != nullptr && phi->getParent() == element->getParent() && indices_available(*element)) {
+    if (llvm::PHINode* phi = pointer_phi(element->getPointerOperand(), dominators); phi != nullptr && phi->getParent() == element->getParent() && indices_available(*element)) {
       spread_over_phi(*element, *phi, [&](llvm::IRBuilderBase& builder, Value* from) { return element_of(builder, *element, from); });
       return true;
     }
@@ -106,12 +111,13 @@ bool resolve(Instruction& user) {
 }  // namespace
 
 void resolve_pointer_choices(llvm::Function& function) {
+  const llvm::DominatorTree dominators(function);  // the control flow stays as it is
   for (bool changed = true; changed;) {
     changed = false;
     std::vector<Instruction*> users;
     for (Instruction& instruction : llvm::instructions(function))
       if (llvm::isa<llvm::LoadInst, llvm::StoreInst, llvm::GetElementPtrInst>(instruction)) users.push_back(&instruction);
-    for (Instruction* user : users) changed = resolve(*user) || changed;
+    for (Instruction* user : users) changed = resolve(*user, dominators) || changed;
     // Choices without users left would still look like escaping addresses.
     std::vector<Instruction*> unused;
     for (Instruction& instruction : llvm::instructions(function))

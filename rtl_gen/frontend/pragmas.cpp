@@ -81,7 +81,10 @@ void check_interface(const pragma_line& pragma, const source_place& place) {
                                          "ap_fifo", "ap_vld", "ap_hs", "ap_ovld", "ap_ack", "ap_ctrl_chain"};
   for (const char* mode : accepted)
     if (pragma.has(mode) || llvm::StringRef(pragma.get("mode")).lower() == mode) return;
-  refuse(place, "#pragma HLS INTERFACE: only stream and scalar interfaces exist here (axis, s_axilite, ap_none, "
+  std::string mode = pragma.get("mode");
+  for (const auto& [key, value] : pragma.options)
+    if (mode.empty() && value.empty()) mode = key;
+  refuse(place, "#pragma HLS INTERFACE " + mode + ": only stream and scalar interfaces exist here (axis, s_axilite, ap_none, "
                 "ap_ctrl_none ...): pass data through hls::stream parameters instead of memory interfaces");
 }
 

@@ -18,10 +18,11 @@ fs::path full_path(const llvm::DIFile& file) {
   return (name.is_absolute() ? name : fs::path(file.getDirectory().str()) / name).lexically_normal();
 }
 
-/// Code that is nobody's line: the type headers, and the call of the top.
+/// Code that is nobody's line: the type headers, the call of the top, the system's headers.
 bool is_type_header(const llvm::DIFile& file) {
   if (file.getFilename().starts_with("<")) return true;
   const std::string path = full_path(file).string();
+  if (llvm::StringRef(path).starts_with("/usr/")) return true;
   return llvm::StringRef(path).starts_with(EPILINE_TYPES_DIRECTORY) || llvm::StringRef(path).starts_with(EPILINE_FRONTEND_INCLUDES);
 }
 

@@ -5,6 +5,7 @@
 // The parameters become ports by their types: a stream by reference is a port of its own; scalars by value (or const
 // reference) are the fields of one argument token a call; scalars by reference are output streams of one token a call.
 
+#include <ap_int.h>
 #include <hls_stream.h>
 
 extern "C" {
@@ -34,6 +35,15 @@ struct parameter {  // by value
   void finish() const {}
 };
 
+// A bool is one bit; in memory it has eight.
+template <int Index>
+struct parameter<bool, Index> {
+  ap_uint<1> value;
+  parameter() { __epiline_argument(Index, &value, &parameter_type_tag<ap_uint<1>>::object); }
+  bool pass() { return value != 0; }
+  void finish() const {}
+};
+
 template <class T, int Index>
 struct parameter<const T&, Index> : parameter<T, Index> {};
 
@@ -43,6 +53,17 @@ struct parameter<T&, Index> {  // a result
   parameter() {}
   T& pass() { return value; }
   void finish() const { __epiline_result(Index, &value, &parameter_type_tag<T>::object); }
+};
+
+template <int Index>
+struct parameter<bool&, Index> {
+  bool value;
+  parameter() {}
+  bool& pass() { return value; }
+  void finish() const {
+    const ap_uint<1> bit = value;
+    __epiline_result(Index, &bit, &parameter_type_tag<ap_uint<1>>::object);
+  }
 };
 
 template <class Stream, int Index>
@@ -71,6 +92,11 @@ void pass_parameters(Parameters&&... parameters) {
   (parameters.finish(), ...);
 }
 
+template <class T>
+inline constexpr bool is_void = false;
+template <>
+inline constexpr bool is_void<void> = true;
+
 template <auto Top, class... P, int... Index>
 void call_once(void (*)(P...), indices<Index...>) {
   pass_parameters<Top>(parameter<P, Index>{}...);
@@ -83,8 +109,10 @@ struct make_indices<0, Index...> {
   using type = indices<Index...>;
 };
 
-template <auto Top, class... P>
-void call_for_ever(void (*top)(P...)) {
+template <auto Top, class Result, class... P>
+void call_for_ever(Result (*)(P...)) {
+  static_assert(is_void<Result>, "the top returns a value");
+  void (*top)(P...) = nullptr;
   for (;;) call_once<Top>(top, typename make_indices<sizeof...(P)>::type{});
 }
 
