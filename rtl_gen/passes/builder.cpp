@@ -172,10 +172,14 @@ void rebuild(graph& g, const std::function<node_id(builder&, node, node_id)>& re
   std::vector<node_id> replacement(g.nodes.size(), none);
   for (node_id id = 0; id < g.nodes.size(); ++id) {
     node n = g.nodes[id];
-    b.set_origin(n.where);
     const std::string name = std::move(n.name);
     n.name.clear();
-    for (node_id& operand : n.operands) operand = replacement[operand];
+    for (node_id& operand : n.operands) {
+      operand = replacement[operand];
+      // What came without a line (made by the C++ compiler's own optimiser) is shown where its operands are.
+      if (n.where.line == 0 && !b.is_constant(operand)) n.where = b.at(operand).where;
+    }
+    b.set_origin(n.where);
     const auto first_new = static_cast<node_id>(result.nodes.size());
     replacement[id] = rewrite(b, std::move(n), id);
     if (name.empty() || replacement[id] == none) continue;

@@ -202,6 +202,14 @@ TEST(simplify, names_and_lines_survive) {
   EXPECT_EQ(found->where.line, 7u);
 }
 
+TEST(simplify, a_node_without_a_line_is_shown_where_its_operand_is) {
+  small_graph s = graph_of(EXPRESSION(s.make(op::add, 8, {a, b})));
+  s.g.nodes[s.g.nodes.size() - 3].where = {};
+  const graph after = run(s.g, simplify);
+  for (const node& n : after.nodes)
+    if (n.kind == op::add) EXPECT_EQ(n.where.line, 7u);
+}
+
 TEST(simplify, wide_masks_of_many_runs_stay_one_operation) {
   small_graph s;
   APInt mask(4096, 0);
