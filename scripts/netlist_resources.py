@@ -18,8 +18,11 @@ COUNTED = ("LUT4", "CCU2C", "TRELLIS_FF", "DP16KD", "TRELLIS_DPR16X4", "MULT18X1
 
 
 def memories_in(file):
-    """Names of the arrays in Yosys's dump of memory cells."""
-    return set(re.findall(r'parameter \\MEMID "\\\\?([^"]+)"', file.read_text(encoding="utf-8")))
+    """Names of the arrays in Yosys's dump of memory cells, and of those of them that are written (the rest are ROMs)."""
+    cells = file.read_text(encoding="utf-8").split("cell $mem_v2")[1:]
+    names = [re.search(r'parameter \\MEMID "\\\\?([^"]+)"', cell).group(1) for cell in cells]
+    written = {name for name, cell in zip(names, cells) if not re.search(r"parameter \\WR_PORTS 0\n", cell)}
+    return set(names), written
 
 
 def arrays_for_ram(verilog):
@@ -35,11 +38,12 @@ def main():
     folder, top = pathlib.Path(sys.argv[1]), sys.argv[2]
     statistics = json.loads((folder / "statistics.json").read_text(encoding="utf-8"))
     cells = statistics["modules"]["\\" + top]["num_cells_by_type"]
-    found, lost = memories_in(folder / "memories.txt"), memories_in(folder / "lost_memories.txt")
+    found, _ = memories_in(folder / "memories.txt")
+    left, left_written = memories_in(folder / "lost_memories.txt")
     for_ram, for_registers = arrays_for_ram(pathlib.Path(sys.argv[3]))
-    # An array Yosys never saw as a memory was taken apart while it read the Verilog.
-    lost |= for_ram - found
-    lost -= for_registers
+    # A small ROM may become logic, unless the Verilog asks for a RAM. An array Yosys never saw as a memory was taken apart
+    # while it read the Verilog.
+    lost = (left & for_ram) | (left_written - for_registers) | (for_ram - found)
     resources = {
         "top": top,
         "lut4": sum(count * cells.get(cell, 0) for cell, count in LUTS.items()),
@@ -47,7 +51,7 @@ def main():
         "block_rams": cells.get("DP16KD", 0),
         "multipliers": cells.get("MULT18X18D", 0),
         "cells": {cell: cells.get(cell, 0) for cell in COUNTED},
-        "memories": sorted(found - lost),
+        "memories": sorted(found - left),
         "lost_memories": sorted(lost),
     }
     (folder / "resources.json").write_text(json.dumps(resources, indent=2) + "\n", encoding="utf-8")

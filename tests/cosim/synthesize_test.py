@@ -55,6 +55,19 @@ module top (input wire clk, input wire [7:0] data, output wire [7:0] word);
 endmodule
 """
 
+TABLE = """
+module top (input wire clk, input wire [1:0] index, output reg [5:0] word);
+  reg [5:0] entries [0:3];
+  initial begin
+    entries[0] = 6'd63;
+    entries[1] = 6'd31;
+    entries[2] = 6'd17;
+    entries[3] = 6'd5;
+  end
+  always @(posedge clk) word <= entries[index];
+endmodule
+"""
+
 LATCH = """
 module top (input wire enable, input wire a, output reg q);
   always @* if (enable) q = a;
@@ -124,6 +137,16 @@ class synthesize(unittest.TestCase):
 
     def test_fails_when_an_array_for_ram_is_no_memory_at_all(self):
         self.expect_failure(self.synthesize(TAKEN_APART), "line", "flip-flops")
+
+    def test_accepts_a_small_table_in_logic(self):
+        result = self.synthesize(TABLE)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.resources()["lost_memories"], [])
+
+    def test_fails_when_a_table_for_ram_became_logic(self):
+        verilog = TABLE.replace("  reg [5:0] entries", '  (* ram_style = "block" *)\n  reg [5:0] entries').replace(
+            "always @(posedge clk) word <=", "always @* word =")
+        self.expect_failure(self.synthesize(verilog))
 
     def test_accepts_an_array_that_is_to_be_registers(self):
         result = self.synthesize(THREE_PORTS.replace("  reg [7:0] store", '  (* ram_style = "registers" *) reg [7:0] store'))
