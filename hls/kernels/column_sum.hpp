@@ -4,6 +4,7 @@
 #include "kernels/color.hpp"
 #include "kernels/level_array.hpp"
 #include "window/bits.hpp"
+#include "window/line_buffer.hpp"
 
 namespace epiline::kernels {
 
@@ -33,10 +34,10 @@ class column_sum {
   };
 
   /// `entering` belongs to the row at the window's lower end, `leaving` to the row above its upper end.
-  /// The same beat may come again after 8 iterations at the earliest.
+  /// The same beat may come again after `shortest_row` iterations at the earliest.
   sums step(const differences& entering, const differences& leaving, const place& at) {
 #pragma HLS INLINE
-#pragma HLS DEPENDENCE variable = sums_ type = inter distance = 8 true
+#pragma HLS DEPENDENCE variable = sums_ type = inter distance = window::shortest_row true
     sums result;
     for (int lane = 0; lane < lanes; ++lane) {
       const int beat = at.beat;

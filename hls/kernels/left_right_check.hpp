@@ -26,7 +26,7 @@ class left_right_check {
   /// `costs`: masked, of the beat `found`. The result belongs to the beat of `delay_beats` steps ago.
   disparity_beat_of<lanes> step(const costs_t& costs, const disparity_beat_of<lanes>& found, bool enabled) {
 #pragma HLS INLINE
-#pragma HLS DEPENDENCE variable = right_ type = inter distance = 8 true
+#pragma HLS DEPENDENCE variable = right_ type = inter distance = lookup_distance true
     const right_beat newest_right = chain_.step(costs);
     disparity_beat_of<lanes> checked = left_.step(found);
     for (int lane = 0; lane < lanes; ++lane) {

@@ -12,6 +12,7 @@
 #include "kernels/left_right_check.hpp"
 #include "kernels/uniqueness.hpp"
 #include "window/bits.hpp"
+#include "window/line_buffer.hpp"
 #include "window/raster.hpp"
 #include "window/reduce.hpp"
 
@@ -55,10 +56,13 @@ struct color_fuzzy_interface {
     static constexpr int flush_beats = kernels::uniqueness_check<Config>::delay_beats +
                                        kernels::left_right_check<Config>::delay_beats +
                                        2 * kernels::fuzzy_filter<Config>::delay_beats;
-    static constexpr int minimum_row_beats = 8;  // what line_buffer and column_sum promise
+    static constexpr int minimum_row_beats = window::shortest_row;
   };
+  static_assert(schedule::padding_beats * lanes >= Config::fuzzy_radius, "rows lie too close for the fuzzy filter");
+  static_assert(schedule::flush_beats >= schedule::minimum_row_beats, "the flush is a row, too");
 };
 
+/// The output token of a beat.
 template <class Config>
 typename color_fuzzy_interface<Config>::disparity_beat output_beat(
     const kernels::disparity_beat_of<Config::pixels_per_beat>& found) {
@@ -90,6 +94,7 @@ void color_fuzzy_frame(hls::stream<typename color_fuzzy_interface<Config>::video
   using namespace kernels;
   using types = color_fuzzy_interface<Config>;
   using schedule = typename types::schedule;
+  using frame_raster = window::raster<schedule>;
   using sad = color_sad<Config>;
   constexpr int lanes = Config::pixels_per_beat;
 
@@ -100,8 +105,8 @@ void color_fuzzy_frame(hls::stream<typename color_fuzzy_interface<Config>::video
   static fuzzy_filter<Config> first_pass;
   static fuzzy_filter<Config> second_pass;
 
-  const typename window::raster<schedule>::beats_t beats = (width + (lanes - 1)) / lanes;
-  window::raster<schedule> raster(beats, height);
+  const typename frame_raster::beats_t beats = (width + (lanes - 1)) / lanes;
+  frame_raster raster(beats, height);
   // What stands in the delay lines at power-up must not reach the output: nothing is written before they have been
   // filled.
   ap_uint<window::bits_for(schedule::flush_beats)> until_filled = schedule::flush_beats;
@@ -129,8 +134,8 @@ void color_fuzzy_frame(hls::stream<typename color_fuzzy_interface<Config>::video
     // The pixel the costs belong to lies half a window above and left of the newest one.
     const bool centre_in_rows = raster.row() >= schedule::padding_rows && !raster.in_flush();
     const bool centre_started = raster.beat() >= schedule::padding_beats;
-    const typename window::raster<schedule>::beat_t centre_beat = raster.beat() - schedule::padding_beats;
-    const ap_uint<13> centre_x = centre_beat * lanes;
+    const typename frame_raster::beat_t centre_beat = raster.beat() - schedule::padding_beats;
+    const ap_uint<window::bits_for(frame_raster::longest_row * lanes)> centre_x = centre_beat * lanes;
     bool pixel_in[lanes];
     for (int lane = 0; lane < lanes; ++lane) {
       pixel_in[lane] = centre_in_rows && centre_started && centre_x + lane < width;

@@ -2,6 +2,10 @@
 
 namespace epiline::window {
 
+/// Fewest iterations between two visits of the same column: what RAMs addressed by the column promise to the pipeline,
+/// and what whoever walks over the raster has to keep, however narrow the frame.
+inline constexpr int shortest_row = 8;
+
 /// The last `Rows` words of every column of a raster: one RAM whose word holds all rows of a column side by side, so
 /// that one read and one write an iteration move the whole column down by a row.
 ///
@@ -15,10 +19,10 @@ class line_buffer {
   };
 
   /// Puts `newest` into column x (0 .. Columns - 1) and returns what stood there before.
-  /// The same column may come again after 8 iterations at the earliest.
+  /// The same column may come again after `shortest_row` iterations at the earliest.
   column step(const Word& newest, int x) {
 #pragma HLS INLINE
-#pragma HLS DEPENDENCE variable = lines_ type = inter distance = 8 true
+#pragma HLS DEPENDENCE variable = lines_ type = inter distance = shortest_row true
     column above;
     for (int row = 0; row < Rows; ++row) above.rows[row] = lines_[x][row];
     for (int row = Rows - 1; row > 0; --row) lines_[x][row] = above.rows[row - 1];
