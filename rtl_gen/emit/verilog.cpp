@@ -214,12 +214,15 @@ std::string writer::fresh_port(const std::string& wanted) {
 
 void writer::reserve_interface() {
   std::vector<std::string> stems;
-  const auto reserve = [&](const std::string& name, std::string_view what) {
+  const auto reserve = [&](const std::string& name, std::string_view what, dataflow::source_location where) {
+    const std::string place = where.line == 0 ? "" : schedule::describe(g_, where) + ": ";
     if (!is_identifier(name) || is_keyword(name)) {
-      throw std::invalid_argument(fmt::format("{} '{}' cannot have that name in Verilog", what, name));
+      throw std::invalid_argument(
+          fmt::format("{}{} '{}' cannot have that name in Verilog: rename it", place, what, name));
     }
     if (!taken_.insert(name).second) {
-      throw std::invalid_argument(fmt::format("{} '{}' has the name of another signal of the module", what, name));
+      throw std::invalid_argument(
+          fmt::format("{}{} '{}' has the name of another signal of the module: rename it", place, what, name));
     }
     // A scalar named x_s3 keeps other values from being named x, whose copy in stage 3 would be called the same.
     const std::size_t mark = name.find_last_not_of("0123456789");
@@ -227,17 +230,18 @@ void writer::reserve_interface() {
       stems.push_back(name.substr(0, mark - 1));
     }
   };
-  reserve(g_.name, "top");
-  reserve("clk", "signal");
-  reserve("rst", "signal");
+  reserve(g_.name, "top", {});
+  reserve("clk", "signal", {});
+  reserve("rst", "signal", {});
   for (const dataflow::port& port : g_.ports) {
-    for (const dataflow::field& f : port.fields) reserve(signal_name(port, f.signal), "port signal");
-    reserve(signal_name(port, "tvalid"), "port signal");
-    reserve(signal_name(port, "tready"), "port signal");
+    for (const dataflow::field& f : port.fields) reserve(signal_name(port, f.signal), "port signal", port.where);
+    reserve(signal_name(port, "tvalid"), "port signal", port.where);
+    reserve(signal_name(port, "tready"), "port signal", port.where);
   }
   for (const char* name : {"fire", "running", "valid", "hold", "hold_next", "holding", "commit"}) {
     if (!taken_.insert(name).second) {
-      throw std::invalid_argument(fmt::format("port signal '{}' has the name of a control signal of the module", name));
+      throw std::invalid_argument(
+          fmt::format("port signal '{}' has the name of a control signal of the module: rename it", name));
     }
   }
   taken_.insert(stems.begin(), stems.end());

@@ -28,7 +28,7 @@ constexpr delay_parameters ecp5{.launch = 1.22,
                                 .distributed_read = 1.10,
                                 .distributed_max_words = 64,
                                 .memory_setup = 0.30,
-                                .issue = 2.20,
+                                .issue = 1.60,
                                 .block_bits = 18432,
                                 .block_max_width = 36};
 
@@ -43,7 +43,7 @@ constexpr delay_parameters hx8k{.launch = 1.40,
                                 .distributed_read = 0,
                                 .distributed_max_words = 0,
                                 .memory_setup = 0.30,
-                                .issue = 3.00,
+                                .issue = 2.15,
                                 .block_bits = 4096,
                                 .block_max_width = 16};
 
@@ -58,12 +58,15 @@ constexpr delay_parameters generic{.launch = 1.00,
                                    .distributed_read = 1.20,
                                    .distributed_max_words = 64,
                                    .memory_setup = 0.30,
-                                   .issue = 2.00,
+                                   .issue = 1.50,
                                    .block_bits = 18432,
                                    .block_max_width = 36};
 
 // LUTs that one block RAM has to save to be preferred: what a device has of both, roughly (ECP5-85F: 84k and 208).
 constexpr double luts_worth_a_block = 100;
+
+// Of a LUT level: a LUT4 holds up to three gates of two inputs.
+constexpr double gate = 0.4;
 
 bool is_constant(const graph& g, node_id id) { return g.nodes[id].kind == operation::constant; }
 
@@ -81,7 +84,7 @@ unsigned significant_width(const graph& g, node_id id) {
 }
 
 /// LUT levels of a reduction of `inputs` bits, with the wide-function multiplexers making it a smooth function.
-double reduction_levels(double inputs) { return std::max(1.0, std::log2(std::max(inputs, 1.0)) / 2.0); }
+double reduction_levels(double inputs) { return std::max(0.5, std::log2(std::max(inputs, 1.0)) / 2.0); }
 
 unsigned address_bits(std::uint64_t words) {
   return words <= 1 ? 1u : static_cast<unsigned>(std::bit_width(words - 1));
@@ -125,6 +128,9 @@ bool is_wire(const graph& g, node_id id) {
       return is_constant(g, n.operands[1]);
     case operation::read:
       return is_constant(g, n.operands[0]);
+    // Every bit is the condition, its inverse or a constant.
+    case operation::select:
+      return is_constant(g, n.operands[1]) && is_constant(g, n.operands[2]);
     default:
       return false;
   }
@@ -149,10 +155,10 @@ double delay_model::delay(const graph& g, node_id id) const {
   const auto carry = [&](unsigned width) { return p.carry_entry + p.carry_bit * width + p.carry_exit; };
   switch (n.kind) {
     case operation::read:
-      return 0.5 * p.lut_level;  // masked by its predicate
+      return gate * p.lut_level;  // masked by its predicate
     case operation::add:
     case operation::subtract:
-      return n.width == 1 ? 0.5 * p.lut_level : carry(n.width);
+      return n.width == 1 ? gate * p.lut_level : carry(n.width);
     case operation::less_unsigned:
     case operation::less_signed: {
       const unsigned width = g.nodes[n.operands[0]].width;
@@ -161,7 +167,7 @@ double delay_model::delay(const graph& g, node_id id) const {
     case operation::multiply: {
       const unsigned a = significant_width(g, n.operands[0]);
       const unsigned b = significant_width(g, n.operands[1]);
-      if (n.width == 1) return 0.5 * p.lut_level;
+      if (n.width == 1) return gate * p.lut_level;
       const unsigned narrow = std::min(a, b);
       if (p.multiplier_width != 0) {
         const unsigned parts = (std::max(a, b) + p.multiplier_width - 1) / p.multiplier_width +
@@ -178,7 +184,7 @@ double delay_model::delay(const graph& g, node_id id) const {
     case operation::bit_and:
     case operation::bit_or:
     case operation::bit_xor:
-      return 0.5 * p.lut_level;
+      return gate * p.lut_level;
     case operation::shift_left:
     case operation::shift_right_logical:
     case operation::shift_right_arithmetic: {
@@ -190,7 +196,7 @@ double delay_model::delay(const graph& g, node_id id) const {
       return p.lut_level * reduction_levels(has_constant_operand(g, n) ? width : 2.0 * width);
     }
     case operation::select:
-      return 0.8 * p.lut_level;
+      return (has_constant_operand(g, n) ? gate : 0.8) * p.lut_level;
     case operation::table: {
       const dataflow::table& t = g.tables[n.object];
       return storage(t) == storage_kind::block ? 0 : p.lut_level * (1 + depth_levels(t.values.size()));
@@ -266,7 +272,7 @@ double delay_model::area(const graph& g, node_id id) const {
     case operation::equal:
       return (has_constant_operand(g, n) ? 1.0 : 2.0) * operand_width(0) / 3.0;
     case operation::select:
-      return n.width;
+      return (has_constant_operand(g, n) ? 0.5 : 1.0) * n.width;
     case operation::table: {
       const dataflow::table& t = g.tables[n.object];
       if (storage(t) == storage_kind::block) return 0;

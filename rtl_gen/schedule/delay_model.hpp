@@ -31,7 +31,8 @@ struct delay_parameters {
   double distributed_read = 0;         // address to word for 16 words; every doubling costs half a LUT level
   unsigned distributed_max_words = 0;  // 0: the target has no LUT RAM
   double memory_setup = 0;             // set-up of a RAM's address, data and enable inputs
-  double issue = 0;         // from a read's predicate through the decision to issue to the clock enables it drives
+  double issue = 0;         // from a read's predicate through the decision to issue, one LUT that also takes in the
+                            // predicate's last gate, to the clock enables it drives
   unsigned block_bits = 0;  // of one block RAM
   unsigned block_max_width = 0;
 };

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <ctime>
 #include <limits>
 
 #include "example_graphs.hpp"
@@ -50,10 +50,11 @@ TEST(delay_model, prices_wires_at_nothing_and_carries_by_their_length) {
   const node_id masked = b.binary(operation::bit_and, x, b.constant(32, 0xff00));
   const node_id joined = b.add(operation::concat, 64, {x, x});
   const node_id moved = b.add(operation::shift_left, 32, {x, b.constant(3, 3)});
+  const node_id flags = b.select(b.slice(x, 0, 1), b.constant(9, 0x1f), b.constant(9, 3));
   const node_id turned = b.add(operation::shift_left, 32, {x, b.slice(x, 0, 5)});
   for (const char* target : {"ecp5", "hx8k", "generic"}) {
     const delay_model model(target);
-    for (const node_id wire : {half, masked, joined, moved, b.invert(x), b.extend(half, 20)}) {
+    for (const node_id wire : {half, masked, joined, moved, flags, b.invert(x), b.extend(half, 20)}) {
       EXPECT_EQ(model.delay(b.g, wire), 0) << target << " node " << wire;
       EXPECT_EQ(model.area(b.g, wire), 0) << target << " node " << wire;
     }
@@ -197,9 +198,9 @@ TEST(make_schedule, takes_linear_time) {
     double best = std::numeric_limits<double>::max();
     const graph g = make_block_matcher(levels);
     for (int trial = 0; trial < 3; ++trial) {
-      const auto start = std::chrono::steady_clock::now();
+      const std::clock_t start = std::clock();  // processor time: other programs run beside this test
       const schedule::result s = make_schedule(g, model, {});
-      best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+      best = std::min(best, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
       EXPECT_EQ(schedule::validate(g, model, s), "");
     }
     return best;
@@ -207,8 +208,8 @@ TEST(make_schedule, takes_linear_time) {
   const double small = seconds(40);
   const double large = seconds(160);  // 16,000 nodes
   EXPECT_LT(large, 4.0);
-  // Four times the size: network simplex grows a little faster than linearly, and other programs run beside this test.
-  EXPECT_LT(large, 16 * small + 0.05);
+  // Four times the size: network simplex grows a little faster than linearly, and caches are shared.
+  EXPECT_LT(large, 16 * small + 0.1);
 }
 
 TEST(make_schedule, refuses_senseless_options) {
