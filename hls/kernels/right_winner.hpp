@@ -39,9 +39,13 @@ class right_winner {
     // and need not be skewed over the pipeline.
     cost_t offered[entries];
     disparity_t level[entries];
-    for (int entry = 0; entry < entries; ++entry) {
-      offered[entry] = entry < levels ? costs.at[lanes - 1][entry < levels ? entry : 0] : cost_t(~cost_t(0));
-      level[entry] = entry < levels ? window::indices<entries>.of[entry] : 0;
+    for (int entry = 0; entry < levels; ++entry) {
+      offered[entry] = costs.at[lanes - 1][entry];
+      level[entry] = window::indices<levels>.of[entry];
+    }
+    for (int entry = levels; entry < entries; ++entry) {
+      offered[entry] = ~cost_t(0);
+      level[entry] = 0;
     }
     for (int lane = lanes - 2; lane >= 0; --lane) {
       const int first = lanes - 1 - lane;
@@ -52,10 +56,14 @@ class right_winner {
         level[first + d] = better ? disparity_t(window::indices<levels>.of[d]) : level[first + d];
       }
     }
+    for (int entry = 0; entry < lanes; ++entry) {  // those who join the chain
+      lowest_[entry] = ~cost_t(0);
+      disparity_[entry] = 0;
+    }
     cost_t lowest[entries];
     disparity_t disparity[entries];
     for (int entry = 0; entry < entries; ++entry) {
-      const bool better = entry < lanes || offered[entry] < lowest_[entry];
+      const bool better = offered[entry] < lowest_[entry];
       lowest[entry] = better ? offered[entry] : lowest_[entry];
       disparity[entry] = better ? level[entry] : disparity_[entry];
     }
