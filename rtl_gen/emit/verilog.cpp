@@ -238,7 +238,7 @@ void writer::reserve_interface() {
     reserve(signal_name(port, "tvalid"), "port signal", port.where);
     reserve(signal_name(port, "tready"), "port signal", port.where);
   }
-  for (const char* name : {"fire", "running", "valid", "hold", "hold_next", "holding", "commit"}) {
+  for (const char* name : {"fire", "running", "valid", "hold", "holding", "commit"}) {
     if (!taken_.insert(name).second) {
       throw std::invalid_argument(
           fmt::format("port signal '{}' has the name of a control signal of the module: rename it", name));
@@ -902,15 +902,18 @@ void writer::write_issue() {
   if (!has_hold()) return;
   const unsigned width = bits_for(most_hold() + 1);
   const int after_any = s_.initiation_interval - 1;
-  std::string after = literal(width, after_any);
-  if (g_.patient != none && s_.hold > 0) {
-    after = fmt::format("({} ? {} : {})", operand(g_.patient, 0), literal(width, std::max(s_.hold, after_any)), after);
+  const bool waits = g_.patient != none && s_.hold > 0;
+  const std::string longest = literal(width, most_hold());
+  std::string after = longest;
+  std::string starts = "fire";
+  if (waits && after_any == 0) {
+    starts = fmt::format("(fire & {})", operand(g_.patient, 0));  // `hold` counts for nothing unless `holding`
+  } else if (waits) {
+    after = fmt::format("({} ? {} : {})", operand(g_.patient, 0), longest, literal(width, after_any));
   }
-  line("  wire {}hold_next = fire ? {} : holding ? hold - {} : {};", range_of(width), after, literal(width, 1),
-       literal(width, 0));
   line("  always @(posedge clk) begin");
-  line("    hold <= hold_next;");
-  line("    holding <= hold_next != {};", literal(width, 0));
+  line("    hold <= fire ? {} : hold - {};", after, literal(width, 1));
+  line("    holding <= {} | (holding & (hold != {}));", starts, literal(width, 1));
   line("    if (rst) begin");
   line("      hold <= {};", literal(width, std::max(1, settle_clocks())));
   line("      holding <= 1'b1;");

@@ -214,7 +214,8 @@ void problem::collect_ways() {
     if (!settled_[state.next]) ways_[state.next].push_back({of_update(r), 0});
     if (!settled_[state.enable]) ways_[state.enable].push_back({of_update(r), model_.enable_entry()});
   }
-  if (g_.patient != none && !settled_[g_.patient]) ways_[g_.patient].push_back({0, model_.parameters().issue});
+  // The patient mark only starts the hold: it is gated with the issue, which does not wait for it.
+  if (g_.patient != none && !settled_[g_.patient]) ways_[g_.patient].push_back({0, model_.enable_entry()});
 }
 
 void problem::find_issue_cone() {
@@ -616,7 +617,7 @@ timing analyse(const graph& g, const delay_model& model, const result& s) {
     finish(g.registers[r].next, s.register_update[r], 0);
     finish(g.registers[r].enable, s.register_update[r], model.enable_entry());
   }
-  if (g.patient != none) finish(g.patient, 0, p.issue);
+  if (g.patient != none) finish(g.patient, 0, model.enable_entry());
   return t;
 }
 
