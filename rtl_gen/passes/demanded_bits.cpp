@@ -10,7 +10,8 @@ namespace epiline::passes {
 using namespace dataflow;
 using llvm::APInt;
 
-demanded_bits::demanded_bits(const graph& g) : g_(g), writes_(g.memories.size()), is_pending_(g.nodes.size(), 0) {
+demanded_bits::demanded_bits(const graph& g, const known_values* known)
+    : g_(g), known_(known), writes_(g.memories.size()), is_pending_(g.nodes.size(), 0) {
   for (const node& n : g.nodes) nodes_.emplace_back(std::max(n.width, 1u), 0);
   for (const register_state& r : g.registers) registers_.emplace_back(r.width, 0);
   for (const memory& m : g.memories) memories_.emplace_back(m.width, 0);
@@ -30,7 +31,8 @@ demanded_bits::demanded_bits(const graph& g) : g_(g), writes_(g.memories.size())
   }
 }
 
-void demanded_bits::demand(node_id id, const APInt& bits) {
+void demanded_bits::demand(node_id id, APInt bits) {
+  if (known_ != nullptr) bits = known_->of_node(id).without_implied(std::move(bits));
   if (bits.isSubsetOf(nodes_[id])) return;
   nodes_[id] |= bits;
   if (is_pending_[id]) return;
@@ -104,9 +106,12 @@ void demanded_bits::pass_on(node_id id) {
 
 void demanded_bits::pass_on_shift(const node& n, const APInt& bits) {
   demand_all(n.operands[1]);
-  const unsigned from = bits.countr_zero(), to = bits.getActiveBits();
-  demand(n.operands[0],
-         n.kind == operation::shift_left ? APInt::getLowBitsSet(n.width, to) : APInt::getBitsSetFrom(n.width, from));
+  if (n.kind == operation::shift_left)
+    demand(n.operands[0], APInt::getLowBitsSet(n.width, bits.getActiveBits()));
+  else if (n.kind == operation::shift_right_logical)
+    demand(n.operands[0], APInt::getBitsSetFrom(n.width, bits.countr_zero()));
+  else
+    demand_all(n.operands[0]);  // wherever the value's own bits end, its sign is wanted
 }
 
 void demanded_bits::pass_on_state(const node& n, const APInt& bits) {

@@ -21,15 +21,18 @@ struct shape {
   bool sign = false;  // the bits above repeat the top one kept
 };
 
+/// `demanded` is what demanded_bits made of it with the same knowledge: of the bits that only repeat the sign it holds
+/// the lowest one if any. So the bit repeated here is right in the new graph, which only has the demanded bits right.
 shape shape_for(const value_set& known, const APInt& demanded) {
   const unsigned needed = std::max(1u, demanded.getActiveBits());
   const unsigned zero = known.unsigned_bits(), sign = known.signed_bits();
-  return {std::min({needed, zero, sign}), sign < zero && sign < needed};
+  if (zero <= sign) return {std::min(needed, zero), false};
+  return {std::min(needed, sign), needed >= sign};
 }
 
 class narrower {
  public:
-  explicit narrower(graph& g) : g_(g), known_(g), demanded_(g) {}
+  explicit narrower(graph& g) : g_(g), known_(g), demanded_(g, &known_) {}
 
   void run() {
     for (register_id r = 0; r < g_.registers.size(); ++r) {

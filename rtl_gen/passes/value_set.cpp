@@ -19,6 +19,15 @@ unsigned value_set::signed_bits() const {
   return std::max(1u, std::min(bits.countMaxSignificantBits(), range.getMinSignedBits()));
 }
 
+APInt value_set::without_implied(APInt demanded) const {
+  const unsigned zero = unsigned_bits(), sign = signed_bits();
+  const unsigned kept = std::min(zero, sign);
+  if (demanded.getActiveBits() <= kept) return demanded;
+  demanded.clearHighBits(width() - kept);
+  if (sign < zero) demanded.setBit(sign - 1);
+  return demanded;
+}
+
 bool value_set::contains_zero() const { return bits.One.isZero() && range.contains(APInt(width(), 0)); }
 
 bool value_set::join(const value_set& other) {

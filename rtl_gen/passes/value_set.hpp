@@ -28,6 +28,9 @@ struct value_set {
   [[nodiscard]] unsigned unsigned_bits() const;
   [[nodiscard]] unsigned signed_bits() const;
   [[nodiscard]] bool contains_zero() const;
+  /// Of `demanded` bits those from which the others follow: no known zeros above unsigned_bits(), and if that takes
+  /// fewer bits, the lowest copy of the sign instead of all copies.
+  [[nodiscard]] llvm::APInt without_implied(llvm::APInt demanded) const;
 
   /// Widens to contain `other` too. True when that changed the set.
   bool join(const value_set& other);

@@ -207,6 +207,25 @@ TEST(narrow_widths, tables_lose_bits_that_are_zero_or_unused) {
   EXPECT_EQ(narrowed(s.g).tables[0].width, 4u);
 }
 
+/// The lowest bit that could serve as the sign is one nothing depends on.
+TEST(narrow_widths, a_sign_is_taken_from_a_bit_that_is_demanded) {
+  small_graph s;
+  const node_id a = s.read("a", 1), b = s.read("b", 6), one = s.constant(1, 1), zero = s.constant(1, 0);
+  // 11xxxxxx or 00xxxxxx: seven bits with sign, but only bit 7 is looked at.
+  const node_id value =
+      s.make(op::select, 8, {a, s.make(op::concat, 8, {one, one, b}), s.make(op::concat, 8, {zero, zero, b})});
+  const auto r = s.add_register("r", 64, 0);
+  s.update(r, s.make(op::extend_sign, 64, {value}));
+  s.write("out", s.make(op::slice, 8, {s.value_of(r)}, none, 27));
+  EXPECT_EQ(narrowed(s.g).registers[0].width, 7u);
+
+  small_graph t;
+  const node_id wide = t.make(op::extend_sign, 64, {t.make(op::bit_and, 8, {t.read("a", 8), t.constant(8, 0x9f)})});
+  const node_id shifted = t.make(op::shift_right_arithmetic, 64, {wide, t.read("by", 3)});
+  t.write("out", t.make(op::slice, 8, {shifted}, none, 40));
+  narrowed(t.g);
+}
+
 TEST(narrow_widths, a_narrowed_value_keeps_its_name) {
   small_graph s;
   const node_id a = s.make(op::extend_zero, 32, {s.read("a", 8)}), b = s.make(op::extend_zero, 32, {s.read("b", 8)});
