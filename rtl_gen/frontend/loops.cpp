@@ -4,6 +4,7 @@
 #include <llvm/Analysis/LoopInfo.h>
 #include <llvm/Analysis/OptimizationRemarkEmitter.h>
 #include <llvm/Analysis/ScalarEvolution.h>
+#include <llvm/Analysis/ScalarEvolutionExpressions.h>
 #include <llvm/Analysis/SimplifyQuery.h>
 #include <llvm/Analysis/TargetTransformInfo.h>
 #include <llvm/IR/Dominators.h>
@@ -211,7 +212,9 @@ void narrow_counters(llvm::Function& function, llvm::FunctionAnalysisManager& an
   for (llvm::Loop* loop : loops.getLoopsInPreorder())
     for (llvm::PHINode& phi : loop->getHeader()->phis()) {
       if (!phi.getType()->isIntegerTy() || !evolution.isSCEVable(phi.getType())) continue;
-      const unsigned needed = std::max(1u, evolution.getUnsignedRangeMax(evolution.getSCEV(&phi)).getActiveBits());
+      const llvm::SCEV* const values = evolution.getSCEV(&phi);
+      if (!llvm::isa<llvm::SCEVAddRecExpr>(values)) continue;
+      const unsigned needed = std::max(1u, evolution.getUnsignedRangeMax(values).getActiveBits());
       if (needed < phi.getType()->getIntegerBitWidth()) counters.emplace_back(&phi, needed);
     }
   for (const auto& [phi, width] : counters) {

@@ -151,6 +151,8 @@ class port_lowering {
   }
 
  private:
+  [[nodiscard]] const llvm::DataLayout& layout() const { return result_.function->getParent()->getDataLayout(); }
+
   static llvm::StringRef name_of(const llvm::CallInst& call) { return call.getCalledFunction()->getName(); }
 
   static unsigned index_of(const llvm::CallInst& call) {
@@ -195,7 +197,7 @@ class port_lowering {
       }
       llvm::Type* const type = payload_type(call, 2);
       const std::string name = parameter_name(index_of(call));
-      const std::vector<leaf> leaves = leaves_of(type, top_.place);
+      const std::vector<leaf> leaves = leaves_of(type, layout(), top_.place);
       arguments_.push_back({&call, type, leaves, result_.ports[call_port_].width});
       result_.ports[call_port_].fields.push_back({name, name, width_of(leaves), result_.ports[call_port_].width});
       result_.ports[call_port_].width += width_of(leaves);
@@ -239,7 +241,7 @@ class port_lowering {
   }
 
   void write(llvm::CallInst& call, unsigned port, llvm::Value* value, llvm::Type* type) {
-    const std::vector<leaf> leaves = leaves_of(type, place_of(call));
+    const std::vector<leaf> leaves = leaves_of(type, layout(), place_of(call));
     set_payload(call, port, false, leaves);
     llvm::IRBuilder<> builder(&call);
     make_access(builder, access::write, port, width_of(leaves), {pack_token(builder, value, type, leaves)});
@@ -252,7 +254,7 @@ class port_lowering {
     } else if (name_of(call) == "__epiline_stream_read") {
       const unsigned port = port_of(call);
       llvm::Type* const type = payload_type(call, 2);
-      const std::vector<leaf> leaves = leaves_of(type, place_of(call));
+      const std::vector<leaf> leaves = leaves_of(type, layout(), place_of(call));
       set_payload(call, port, true, leaves);
       llvm::IRBuilder<> builder(&call);
       llvm::Value* const token = make_access(builder, access::read, port, width_of(leaves), {}, result_.ports[port].name);

@@ -17,8 +17,24 @@ unsigned tag_of(llvm::Type* type, unsigned element_bits) {
   return static_cast<unsigned>(inner->getNumElements());
 }
 
+/// clang writes the gaps of a struct that mixes C integers with ap types as explicit byte arrays.
+bool is_padding(const llvm::StructType& structure, unsigned index, const llvm::DataLayout& layout) {
+  auto* bytes = llvm::dyn_cast<llvm::ArrayType>(structure.getElementType(index));
+  if (!structure.isPacked() || bytes == nullptr || !bytes->getElementType()->isIntegerTy(8) || bytes->getNumElements() > 15) return false;
+  const llvm::StructLayout& offsets = *layout.getStructLayout(const_cast<llvm::StructType*>(&structure));
+  const std::uint64_t begin = offsets.getElementOffset(index);
+  std::uint64_t alignment = 1;
+  if (index + 1 < structure.getNumElements()) {
+    alignment = layout.getABITypeAlign(structure.getElementType(index + 1)).value();
+  } else {
+    for (llvm::Type* member : structure.elements()) alignment = std::max(alignment, layout.getABITypeAlign(member).value());
+  }
+  return begin % alignment != 0 && (begin + bytes->getNumElements()) % alignment == 0 && bytes->getNumElements() < alignment;
+}
+
 struct collector {
   const source_place& place;
+  const llvm::DataLayout& layout;
   std::vector<leaf> leaves;
   std::vector<unsigned> path;
   unsigned axis_field = 0;
@@ -39,7 +55,7 @@ struct collector {
       for (unsigned i = 0; i < structure->getNumElements(); ++i) {
         llvm::Type* const member = structure->getElementType(i);
         if (const unsigned tag = tag_of(member, 32); tag != 0) axis_field = tag;
-        else visit_member(member, i);
+        else if (!is_padding(*structure, i, layout)) visit_member(member, i);
       }
       axis_field = outside;
     } else if (type->isFloatingPointTy()) {
@@ -87,8 +103,8 @@ bool is_arbitrary_precision(llvm::Type* type, unsigned& width, bool& is_signed) 
   return false;
 }
 
-std::vector<leaf> leaves_of(llvm::Type* type, const source_place& place) {
-  collector all{place, {}, {}, 0};
+std::vector<leaf> leaves_of(llvm::Type* type, const llvm::DataLayout& layout, const source_place& place) {
+  collector all{place, layout, {}, {}, 0};
   all.visit(type);
   return all.leaves;
 }

@@ -26,7 +26,7 @@ struct leaf {
 bool is_arbitrary_precision(llvm::Type* type, unsigned& width, bool& is_signed);
 
 /// The leaves of a payload type in order. Refuses (at `place`) floating point, pointers and other foreign types.
-[[nodiscard]] std::vector<leaf> leaves_of(llvm::Type* type, const source_place& place);
+[[nodiscard]] std::vector<leaf> leaves_of(llvm::Type* type, const llvm::DataLayout& layout, const source_place& place);
 
 /// The RTL fields of a port that carries these leaves: tdata alone, or one group an AXI4-Stream member.
 [[nodiscard]] std::vector<dataflow::field> fields_of(const std::vector<leaf>& leaves);

@@ -5,6 +5,7 @@
 #include <llvm/IR/DebugInfoMetadata.h>
 
 #include <filesystem>
+#include <map>
 
 namespace epiline::frontend {
 
@@ -12,35 +13,49 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Debug information names files relative to the compilation folder when they lie below it.
-fs::path full_path(const llvm::DIFile& file) {
+/// What is to be known of a file, once a file: every instruction asks for it.
+struct file_facts {
+  bool anonymous;     // code that is nobody's line: the type headers, the call of the top, the system's headers
+  std::string shown;  // as a person would name it from here
+};
+
+file_facts find_facts(const llvm::DIFile& file) {
+  // Debug information names files relative to the compilation folder when they lie below it.
   const fs::path name = file.getFilename().str();
-  return (name.is_absolute() ? name : fs::path(file.getDirectory().str()) / name).lexically_normal();
+  const fs::path full = (name.is_absolute() ? name : fs::path(file.getDirectory().str()) / name).lexically_normal();
+  const std::string near = full.lexically_proximate(fs::current_path()).string();
+  const llvm::StringRef path = full.native();
+  const bool anonymous = file.getFilename().starts_with("<") || path.starts_with("/usr/") ||
+                         path.starts_with(EPILINE_TYPES_DIRECTORY) || path.starts_with(EPILINE_FRONTEND_INCLUDES);
+  return {anonymous, near.size() < full.native().size() ? near : full.string()};
 }
 
-/// Code that is nobody's line: the type headers, the call of the top, the system's headers.
-bool is_type_header(const llvm::DIFile& file) {
-  if (file.getFilename().starts_with("<")) return true;
-  const std::string path = full_path(file).string();
-  if (llvm::StringRef(path).starts_with("/usr/")) return true;
-  return llvm::StringRef(path).starts_with(EPILINE_TYPES_DIRECTORY) || llvm::StringRef(path).starts_with(EPILINE_FRONTEND_INCLUDES);
+const file_facts& facts_of(const llvm::DIFile& file) {
+  thread_local std::map<std::string, file_facts> known;
+  thread_local const llvm::DIFile* last = nullptr;  // neighbours come from the same file
+  thread_local std::string last_name;
+  thread_local const file_facts* last_facts = nullptr;
+  if (&file == last && file.getFilename() == last_name) return *last_facts;
+  const std::string key = (file.getDirectory() + "|" + file.getFilename()).str();
+  auto found = known.find(key);
+  if (found == known.end()) found = known.emplace(key, find_facts(file)).first;
+  last = &file;
+  last_name = file.getFilename().str();
+  last_facts = &found->second;
+  return found->second;
 }
 
-/// As a person would name it from here.
-std::string shown_path(const llvm::DIFile& file) {
-  const fs::path path = full_path(file);
-  const std::string near = path.lexically_proximate(fs::current_path()).string();
-  return near.size() < path.string().size() ? near : path.string();
-}
+bool is_anonymous(const llvm::DIFile& file) { return facts_of(file).anonymous; }
+std::string shown_path(const llvm::DIFile& file) { return facts_of(file).shown; }
 
 }  // namespace
 
 source_place place_of(const llvm::DebugLoc& location) {
   const llvm::DILocation* at = location.get();
-  while (at != nullptr && is_type_header(*at->getFile()) && at->getInlinedAt() != nullptr) at = at->getInlinedAt();
+  while (at != nullptr && is_anonymous(*at->getFile()) && at->getInlinedAt() != nullptr) at = at->getInlinedAt();
   // Compiler-made instructions have line 0: their caller's line says more.
   while (at != nullptr && at->getLine() == 0 && at->getInlinedAt() != nullptr) at = at->getInlinedAt();
-  if (at == nullptr || is_type_header(*at->getFile())) return {};
+  if (at == nullptr || is_anonymous(*at->getFile())) return {};
   return {shown_path(*at->getFile()), at->getLine()};
 }
 

@@ -59,8 +59,10 @@ class cutter {
         if (access_of(instruction) != access::read ||
             process_.ports[object_of(instruction)].kind != dataflow::port_kind::call)
           continue;
+        // At the block's start when nothing is accessed before: its phis then are registers with reset values.
         llvm::BasicBlock* start = &block;
-        if (&instruction != block.getFirstNonPHI()) start = split(instruction);
+        for (const llvm::Instruction* before = block.getFirstNonPHI(); before != &instruction && start == &block; before = before->getNextNode())
+          if (access_of(*before) != access::none) start = split(instruction);
         // Without a loop in the call there is nothing to wait for: every clock may be a call.
         const auto loop = innermost_.find(start);
         const bool has_loops = loop == innermost_.end() || is_cut_.count(loop->second) == 0;
