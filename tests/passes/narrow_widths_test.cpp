@@ -250,5 +250,17 @@ TEST(demanded_bits, follow_the_operations) {
   EXPECT_EQ(bits.of_node(a), APInt(16, 0x30));
 }
 
+TEST(demanded_bits, leave_out_what_follows_from_other_bits) {
+  small_graph s;
+  const node_id zeros = s.make(op::extend_zero, 16, {s.read("a", 4)});
+  const node_id signs = s.make(op::extend_sign, 16, {s.read("b", 4)});
+  s.write("zeros", s.make(op::slice, 8, {zeros}, none, 2));
+  s.write("signs", s.make(op::slice, 8, {signs}, none, 6));
+  const known_values known(s.g);
+  const demanded_bits bits(s.g, &known);
+  EXPECT_EQ(bits.of_node(zeros), APInt(16, 0xc));  // bits 2 and 3; zeros stand above
+  EXPECT_EQ(bits.of_node(signs), APInt(16, 0x8));  // bit 3 stands for bits 6 to 13
+}
+
 }  // namespace
 }  // namespace epiline::passes
