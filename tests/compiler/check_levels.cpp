@@ -68,9 +68,12 @@ int main(int argc, char** argv) {
         good = false;
       }
       if (make == nullptr) continue;
-      const std::unique_ptr<rtl_model> model(make(name.c_str(), seed));
-      if (!model) throw std::runtime_error("no model of that name");
-      const std::string difference = test::check_rtl(*model, recorded, seed, graph.waits ? 0 : graph.iterations);
+      const auto make_fresh = [&] {
+        std::unique_ptr<rtl_model> model(make(name.c_str(), seed));
+        if (!model) throw std::runtime_error("no model of that name");
+        return model;
+      };
+      const std::string difference = test::check_rtl(make_fresh, recorded, seed, graph.waits ? 0 : graph.iterations);
       if (!difference.empty()) {
         fmt::print("{}: RTL: {}\n", name, difference);
         good = false;

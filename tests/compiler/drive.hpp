@@ -84,7 +84,7 @@ struct leaf<ap_int<W>> {
 template <class T>
   requires std::is_integral_v<T>
 struct leaf<T> {
-  // In a token as in memory: a bool takes a byte, of which only the lowest bit is ever 1.
+  // In a payload as in memory: a bool takes a byte, of which only the lowest bit is ever 1.
   static constexpr unsigned width = 8 * sizeof(T);
   static bits get(T value) {
     bits result(width);
@@ -275,8 +275,9 @@ class session {
   template <class T>
   void result(const std::string& name, const T& value) {
     channel* c = find(name);
-    if (c == nullptr) c = &add(name, "output", "result", payload<T>::format());
-    c->tokens.push_back(payload<T>::get(value));
+    const argument a(name, value);
+    if (c == nullptr) c = &add(name, "output", "result", {{"tdata", a.width}});
+    c->tokens.push_back({a.value});
   }
 
   /// Uniform in [low, high].

@@ -136,12 +136,14 @@ constexpr std::array patterns = {
     pause_pattern{"random pauses, ready after valid", true, 0, 40, true, false},
 };
 
-std::string run_rtl(cosim::rtl_model& model, const std::vector<recorded_port>& recorded, std::uint64_t seed,
-                    std::uint64_t iterations) {
-  check_count(model.ports(), recorded);
+std::string run_rtl(const std::function<std::unique_ptr<cosim::rtl_model>()>& make,
+                    const std::vector<recorded_port>& recorded, std::uint64_t seed, std::uint64_t iterations) {
+  std::unique_ptr<cosim::rtl_model> model = make();
+  check_count(model->ports(), recorded);
   cosim::drive_request request;
+  const std::vector<cosim::model_port> ports = model->ports();
   std::vector<std::pair<const cosim::model_port*, cosim::token_list>> wanted;
-  for (const cosim::model_port& port : model.ports()) {
+  for (const cosim::model_port& port : ports) {
     cosim::token_list tokens = lay_out(find_recorded(recorded, port), places(port), port.width);
     if (port.input) {
       request.inputs.emplace(port.name, std::move(tokens));
@@ -158,12 +160,13 @@ std::string run_rtl(cosim::rtl_model& model, const std::vector<recorded_port>& r
     options.quiet_clocks = 150;
     options.ready_after_valid = pattern.ready_after_valid;
     options.probe_outputs = pattern.probe_outputs;
-    for (const cosim::model_port& port : model.ports()) {
+    for (const cosim::model_port& port : ports) {
       static constexpr std::array shares = {0, 25, 50, 90};
       options.stalls[port.name] = {pattern.random ? shares[random() % shares.size()] : pattern.percent, pattern.burst};
     }
+    if (&pattern != &patterns.front()) model = make();
     try {
-      const cosim::drive_result result = cosim::drive(model, request, options);
+      const cosim::drive_result result = cosim::drive(*model, request, options);
       for (const auto& [port, tokens] : wanted) {
         const std::string difference = compare(port->name, places(*port), result.outputs.at(port->name).tokens, tokens);
         if (!difference.empty()) return fmt::format("{}, seed {}: {}", pattern.name, seed, difference);
@@ -188,10 +191,10 @@ graph_verdict check_graph(const dataflow::graph& g, const std::vector<recorded_p
   }
 }
 
-std::string check_rtl(cosim::rtl_model& model, const std::vector<recorded_port>& recorded, std::uint64_t seed,
-                      std::uint64_t iterations) {
+std::string check_rtl(const std::function<std::unique_ptr<cosim::rtl_model>()>& make,
+                      const std::vector<recorded_port>& recorded, std::uint64_t seed, std::uint64_t iterations) {
   try {
-    return run_rtl(model, recorded, seed, iterations);
+    return run_rtl(make, recorded, seed, iterations);
   } catch (const std::exception& error) {
     return error.what();
   }

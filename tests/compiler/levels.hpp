@@ -2,6 +2,8 @@
 // Native = dataflow graph = RTL: plays a program's recorded input into a level and compares what comes out.
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -22,7 +24,9 @@ struct graph_verdict {
 
 /// The circuit, under several patterns of random pauses. `iterations` of the interpreter, if known (not 0), bound the
 /// clocks of the run without pauses: one an iteration. Returns an empty string or what is wrong.
-[[nodiscard]] std::string check_rtl(cosim::rtl_model& model, const std::vector<recorded_port>& recorded,
-                                    std::uint64_t seed, std::uint64_t iterations);
+/// Every pattern gets a model of its own from `make`: memories keep their contents over a reset, C++'s statics are fresh.
+[[nodiscard]] std::string check_rtl(const std::function<std::unique_ptr<cosim::rtl_model>()>& make,
+                                    const std::vector<recorded_port>& recorded, std::uint64_t seed,
+                                    std::uint64_t iterations);
 
 }  // namespace epiline::compiler_test

@@ -1,3 +1,4 @@
+// options: --clock 6ns
 #include "ap_int.h"
 #include "hls_stream.h"
 
