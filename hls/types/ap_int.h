@@ -302,8 +302,8 @@ class ap_int_base : public detail::bool_conversion<ap_int_base<W, S>, (W > 64)> 
   }
   constexpr ap_int_base operator~() const { return from_raw(backend::wrap<W, S>(~to_raw())); }
 
-  constexpr ap_int_base& operator++() { return *this = *this + ap_int_base<1, false>(1); }
-  constexpr ap_int_base& operator--() { return *this = *this - ap_int_base<1, false>(1); }
+  constexpr ap_int_base& operator++() { return *this = *this + one_bit(1); }
+  constexpr ap_int_base& operator--() { return *this = *this - one_bit(1); }
   constexpr ap_int_base operator++(int) {
     const ap_int_base old = *this;
     ++*this;
@@ -332,6 +332,10 @@ class ap_int_base : public detail::bool_conversion<ap_int_base<W, S>, (W > 64)> 
 
   struct from_raw_tag {};
   using bits_type = backend::raw<W, false>;
+
+  // Depends on W: clang would otherwise instantiate ap_int_base<1, false> before this template's own members are parsed,
+  // and then not know them in constant expressions.
+  using one_bit = ap_int_base<W / W, false>;
 
   constexpr ap_int_base(const raw& v, from_raw_tag) : stored_(v) {}
 
