@@ -215,8 +215,8 @@ module DP16KD (
   };
   initial begin
     for (row = 0; row < 1024; row = row + 1) rows[row] = initial_rows[20*row+:18];
-    if (REGMODE_A != "NOREG" || REGMODE_B != "NOREG" || CLKAMUX != "CLKA" || CLKBMUX != "CLKB" || RESETMODE != "SYNC") begin
-      $display("DP16KD: output registers, inverted clocks and asynchronous reset are not modelled");
+    if (REGMODE_A != "NOREG" || REGMODE_B != "NOREG" || CLKAMUX != "CLKA" || CLKBMUX != "CLKB") begin
+      $display("DP16KD: output registers and inverted clocks are not modelled");
       $finish;
     end
   end
@@ -311,6 +311,14 @@ module DP16KD (
       read_low <= rows[low_row] ^ collision(low_row);
     end else if (CEB && !(write_b && WRITEMODE_B == "NORMAL")) begin
       read_b <= (seen_b >> lowest_bit(DATA_WIDTH_B, address_b[3:0])) & ones(DATA_WIDTH_B);
+    end
+  end
+
+  // Without a reset the mode does not matter.
+  always @(posedge CLKA) begin
+    if (RESETMODE != "SYNC" && (RSTA || RSTB)) begin
+      $display("DP16KD: asynchronous reset is not modelled");
+      $finish;
     end
   end
 
