@@ -1,8 +1,8 @@
 // Compares graph and RTL with the recorded native run:
 //
-//   compiler_check_levels TOKENS RTL [MODELS.so] NAME...
+//   compiler_check_levels TOKENS RTL [MODELS.so] NAME[@INTERVAL]...
 //
-// for every NAME: TOKENS/NAME.tokens against RTL/NAME/NAME.graph and, with MODELS.so (written by run_batch.py), the
+// for every NAME, made for INTERVAL clocks an iteration (1 if not given): TOKENS/NAME.tokens against RTL/NAME/NAME.graph and, with MODELS.so (written by run_batch.py), the
 // Verilator model of RTL/NAME/NAME.v. Prints "NAME: iterations: N" of the graph, and one line a failure,
 // "NAME: graph: ..." or "NAME: RTL: ..."; exit code 1 if there was one.
 
@@ -37,7 +37,7 @@ std::string read_file(const std::filesystem::path& file) {
 int main(int argc, char** argv) {
   namespace test = epiline::compiler_test;
   if (argc < 4) {
-    fmt::print(stderr, "usage: {} TOKENS RTL [MODELS.so] NAME...\n", argv[0]);
+    fmt::print(stderr, "usage: {} TOKENS RTL [MODELS.so] NAME[@INTERVAL]...\n", argv[0]);
     return 2;
   }
   const std::filesystem::path tokens = argv[1];
@@ -57,7 +57,10 @@ int main(int argc, char** argv) {
   const std::uint64_t seed = seed_text == nullptr ? 1 : std::strtoull(seed_text, nullptr, 10);
   bool good = true;
   for (int i = first; i < argc; ++i) {
-    const std::string name = argv[i];
+    const std::string_view argument = argv[i];
+    const std::size_t at = argument.find('@');
+    const std::string name(argument.substr(0, at));
+    const std::uint64_t interval = at == argument.npos ? 1 : std::strtoull(argv[i] + at + 1, nullptr, 10);
     try {
       const std::vector<test::recorded_port> recorded = test::read_token_file(tokens / (name + ".tokens"));
       const test::graph_verdict graph =
@@ -73,7 +76,7 @@ int main(int argc, char** argv) {
         if (!model) throw std::runtime_error("no model of that name");
         return model;
       };
-      const std::string difference = test::check_rtl(make_fresh, recorded, seed, graph.waits ? 0 : graph.iterations);
+      const std::string difference = test::check_rtl(make_fresh, recorded, seed, graph.waits ? 0 : graph.iterations * interval);
       if (!difference.empty()) {
         fmt::print("{}: RTL: {}\n", name, difference);
         good = false;

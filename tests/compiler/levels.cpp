@@ -15,7 +15,7 @@ namespace epiline::compiler_test {
 namespace {
 
 constexpr std::uint64_t most_iterations = 200'000;
-/// Clocks a pipeline may take to fill and drain, and a first call to start, beside one clock an iteration.
+/// Clocks a pipeline may take to fill and drain, and a first call to start, beside the clocks of its iterations.
 constexpr std::uint64_t latency_allowance = 400;
 
 const char* kind_name(dataflow::port_kind kind) {
@@ -137,7 +137,7 @@ constexpr std::array patterns = {
 };
 
 std::string run_rtl(const std::function<std::unique_ptr<cosim::rtl_model>()>& make,
-                    const std::vector<recorded_port>& recorded, std::uint64_t seed, std::uint64_t iterations) {
+                    const std::vector<recorded_port>& recorded, std::uint64_t seed, std::uint64_t clocks) {
   std::unique_ptr<cosim::rtl_model> model = make();
   check_count(model->ports(), recorded);
   cosim::drive_request request;
@@ -171,8 +171,8 @@ std::string run_rtl(const std::function<std::unique_ptr<cosim::rtl_model>()>& ma
         const std::string difference = compare(port->name, places(*port), result.outputs.at(port->name).tokens, tokens);
         if (!difference.empty()) return fmt::format("{}, seed {}: {}", pattern.name, seed, difference);
       }
-      if (&pattern == &patterns.front() && iterations > 0 && result.busy_clocks() > iterations + latency_allowance) {
-        return fmt::format("{} clocks for {} iterations", result.busy_clocks(), iterations);
+      if (&pattern == &patterns.front() && clocks > 0 && result.busy_clocks() > clocks + latency_allowance) {
+        return fmt::format("{} clocks, {} expected", result.busy_clocks(), clocks);
       }
     } catch (const cosim::drive_error& error) {
       return fmt::format("{}: {}", pattern.name, error.what());
@@ -192,9 +192,9 @@ graph_verdict check_graph(const dataflow::graph& g, const std::vector<recorded_p
 }
 
 std::string check_rtl(const std::function<std::unique_ptr<cosim::rtl_model>()>& make,
-                      const std::vector<recorded_port>& recorded, std::uint64_t seed, std::uint64_t iterations) {
+                      const std::vector<recorded_port>& recorded, std::uint64_t seed, std::uint64_t clocks) {
   try {
-    return run_rtl(make, recorded, seed, iterations);
+    return run_rtl(make, recorded, seed, clocks);
   } catch (const std::exception& error) {
     return error.what();
   }

@@ -22,11 +22,11 @@ struct graph_verdict {
 /// The graph, interpreted.
 [[nodiscard]] graph_verdict check_graph(const dataflow::graph& g, const std::vector<recorded_port>& recorded);
 
-/// The circuit, under several patterns of random pauses. `iterations` of the interpreter, if known (not 0), bound the
-/// clocks of the run without pauses: one an iteration. Returns an empty string or what is wrong.
+/// The circuit, under several patterns of random pauses. `clocks`, if known (not 0), bound the run without pauses
+/// (a pipeline may take some more to fill and drain). Returns an empty string or what is wrong.
 /// Every pattern gets a model of its own from `make`: memories keep their contents over a reset, C++'s statics are fresh.
 [[nodiscard]] std::string check_rtl(const std::function<std::unique_ptr<cosim::rtl_model>()>& make,
                                     const std::vector<recorded_port>& recorded, std::uint64_t seed,
-                                    std::uint64_t iterations);
+                                    std::uint64_t clocks);
 
 }  // namespace epiline::compiler_test
