@@ -264,13 +264,18 @@ class access_collector {
   /// Small structs pass through calls as one wide integer: takes such an access apart into its members'.
   bool add_pieces(llvm::Instruction* instruction, path_steps path, llvm::Type* type, llvm::Type* accessed) {
     const std::uint64_t bytes = layout_.getTypeStoreSize(accessed);
-    while (layout_.getTypeAllocSize(type) < bytes && !path.empty() && path.back().constant == 0 && path.back().dynamic == nullptr) {
-      type = path.back().container;
+    std::uint64_t begin = 0;  // in the smallest object around that holds all of it
+    while (begin + bytes > layout_.getTypeAllocSize(type)) {
+      if (path.empty() || path.back().dynamic != nullptr) return false;
+      const path_step& last = path.back();
+      const auto index = static_cast<std::uint64_t>(last.constant);
+      begin += last.is_array() ? index * layout_.getTypeAllocSize(type)
+                               : layout_.getStructLayout(llvm::cast<llvm::StructType>(last.container))->getElementOffset(static_cast<unsigned>(index));
+      type = last.container;
       path.pop_back();
     }
-    if (layout_.getTypeAllocSize(type) < bytes) return false;
     std::vector<std::pair<std::uint64_t, path_steps>> pieces;
-    if (!collect_pieces(type, 0, bytes, path, pieces)) return false;
+    if (!collect_pieces(type, 0, begin, begin + bytes, path, pieces)) return false;
     auto* store = llvm::dyn_cast<llvm::StoreInst>(instruction);
     llvm::IRBuilder<> builder(instruction);
     llvm::Value* const pointer = llvm::getLoadStorePointerOperand(instruction);
@@ -291,28 +296,29 @@ class access_collector {
     return true;
   }
 
-  /// The scalars of `type` that lie in its first `bytes` bytes; false when one lies there in part only.
-  bool collect_pieces(llvm::Type* type, std::uint64_t offset, std::uint64_t bytes, path_steps& path,
+  /// The scalars of `type` (which lies at byte `offset`) in bytes [begin, end), with their distance from `begin`; false
+  /// when one lies there in part only.
+  bool collect_pieces(llvm::Type* type, std::uint64_t offset, std::uint64_t begin, std::uint64_t end, path_steps& path,
                       std::vector<std::pair<std::uint64_t, path_steps>>& pieces) const {
-    if (offset >= bytes) return true;
+    if (offset >= end || offset + layout_.getTypeAllocSize(type) <= begin) return true;
+    const auto descend_to = [&](std::uint64_t index, std::uint64_t distance) {
+      path.push_back({type, static_cast<std::int64_t>(index), nullptr});
+      const bool whole = collect_pieces(step_type(path.back()), offset + distance, begin, end, path, pieces);
+      path.pop_back();
+      return whole;
+    };
     if (auto* array = llvm::dyn_cast<llvm::ArrayType>(type)) {
-      for (std::uint64_t i = 0; i < array->getNumElements(); ++i) {
-        path.push_back({type, static_cast<std::int64_t>(i), nullptr});
-        if (!collect_pieces(array->getElementType(), offset + i * layout_.getTypeAllocSize(array->getElementType()), bytes, path, pieces)) return false;
-        path.pop_back();
-      }
+      for (std::uint64_t i = 0; i < array->getNumElements(); ++i)
+        if (!descend_to(i, i * layout_.getTypeAllocSize(array->getElementType()))) return false;
       return true;
     }
     if (auto* structure = llvm::dyn_cast<llvm::StructType>(type)) {
-      for (unsigned i = 0; i < structure->getNumElements(); ++i) {
-        path.push_back({type, i, nullptr});
-        if (!collect_pieces(structure->getElementType(i), offset + layout_.getStructLayout(structure)->getElementOffset(i), bytes, path, pieces)) return false;
-        path.pop_back();
-      }
+      for (unsigned i = 0; i < structure->getNumElements(); ++i)
+        if (!descend_to(i, layout_.getStructLayout(structure)->getElementOffset(i))) return false;
       return true;
     }
-    if (!type->isIntegerTy() || offset + layout_.getTypeStoreSize(type) > bytes) return false;
-    pieces.emplace_back(offset, path);
+    if (!type->isIntegerTy() || offset < begin || offset + layout_.getTypeStoreSize(type) > end) return false;
+    pieces.emplace_back(offset - begin, path);
     return true;
   }
 

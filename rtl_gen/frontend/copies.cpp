@@ -127,4 +127,29 @@ void expand_copies(llvm::Function& function, unknown_types otherwise) {
     if (expand(*copy, layout, otherwise)) copy->eraseFromParent();
 }
 
+void split_whole_structs(llvm::Function& function) {
+  const llvm::DataLayout& layout = function.getParent()->getDataLayout();
+  std::vector<llvm::Instruction*> whole;
+  for (llvm::Instruction& instruction : llvm::instructions(function))
+    if ((llvm::isa<llvm::LoadInst>(instruction) && instruction.getType()->isStructTy()) ||
+        (llvm::isa<llvm::StoreInst>(instruction) && llvm::cast<llvm::StoreInst>(instruction).getValueOperand()->getType()->isStructTy()))
+      whole.push_back(&instruction);
+  for (llvm::Instruction* instruction : whole) {
+    auto* store = llvm::dyn_cast<llvm::StoreInst>(instruction);
+    auto* type = llvm::cast<llvm::StructType>(store != nullptr ? store->getValueOperand()->getType() : instruction->getType());
+    llvm::Value* const pointer = llvm::getLoadStorePointerOperand(instruction);
+    llvm::IRBuilder<> builder(instruction);
+    llvm::Value* value = llvm::PoisonValue::get(type);
+    for (unsigned i = 0; i < type->getNumElements(); ++i) {
+      // By bytes, since the object has another type than the registers it travels in.
+      const std::uint64_t offset = layout.getStructLayout(type)->getElementOffset(i);
+      llvm::Value* const member = offset == 0 ? pointer : builder.CreateConstInBoundsGEP1_64(builder.getInt8Ty(), pointer, offset);
+      if (store != nullptr) builder.CreateStore(builder.CreateExtractValue(store->getValueOperand(), i), member);
+      else value = builder.CreateInsertValue(value, builder.CreateLoad(type->getElementType(i), member), i);
+    }
+    if (store == nullptr) instruction->replaceAllUsesWith(value);
+    instruction->eraseFromParent();
+  }
+}
+
 }  // namespace epiline::frontend

@@ -11,4 +11,7 @@ enum class unknown_types { kept, refused };
 /// follow one by one. Refuses copies too large to happen in one clock.
 void expand_copies(llvm::Function& function, unknown_types otherwise);
 
+/// Structs that a calling convention returns in registers are loaded and stored as a whole: makes scalars of them.
+void split_whole_structs(llvm::Function& function);
+
 }  // namespace epiline::frontend

@@ -76,10 +76,10 @@ class unroller {
         costs_(analyses.getResult<llvm::TargetIRAnalysis>(function)),
         remarks_(analyses.getResult<llvm::OptimizationRemarkEmitterAnalysis>(function)) {}
 
-  unsigned run() {
+  unsigned run(bool every_loop) {
     marks_ = take_pragmas(function_, loops_);
     // Outer loops decide for inner ones, inner loops are unrolled first.
-    for (llvm::Loop* loop : loops_) decide(*loop, marks_.whole_function);
+    for (llvm::Loop* loop : loops_) decide(*loop, every_loop || marks_.whole_function);
     const llvm::SmallVector<llvm::Loop*, 4> order = loops_.getLoopsInPreorder();
     for (auto loop = order.rbegin(); loop != order.rend(); ++loop)
       if (chosen_.count((*loop)->getHeader()) != 0) unroll(**loop);
@@ -138,8 +138,8 @@ class unroller {
 
 }  // namespace
 
-unsigned unroll_loops(llvm::Function& function, llvm::FunctionAnalysisManager& analyses) {
-  return unroller(function, analyses).run();
+unsigned unroll_loops(llvm::Function& function, llvm::FunctionAnalysisManager& analyses, bool every_loop) {
+  return unroller(function, analyses).run(every_loop);
 }
 
 void rotate_loops(llvm::Function& function, llvm::FunctionAnalysisManager& analyses) {

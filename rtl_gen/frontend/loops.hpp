@@ -11,7 +11,8 @@ namespace epiline::frontend {
 ///   - a constant loop outside of all others is unrolled when it is short.
 /// Refuses endless loops without stream access and UNROLL of loops whose trip count is not known.
 /// Returns the largest initiation interval that a PIPELINE pragma allows (1 without).
-[[nodiscard]] unsigned unroll_loops(llvm::Function& function, llvm::FunctionAnalysisManager& analyses);
+/// `every_loop`: unroll outer constant loops as readily as inner ones.
+unsigned unroll_loops(llvm::Function& function, llvm::FunctionAnalysisManager& analyses, bool every_loop = false);
 
 /// Turns `while` loops into guarded do-while form where that duplicates no access, so that nested loops flow into each
 /// other without an idle clock.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <llvm/ADT/SCCIterator.h>
 #include <llvm/Analysis/CallGraph.h>
+#include <llvm/Demangle/Demangle.h>
 #include <llvm/IR/DebugInfoMetadata.h>
 #include <llvm/IR/InstIterator.h>
 #include <llvm/IR/IntrinsicInst.h>
@@ -19,13 +20,16 @@
 #include <llvm/Transforms/Scalar/SimplifyCFG.h>
 #include <llvm/Transforms/Utils/LowerSwitch.h>
 
+#include <algorithm>
 #include <map>
+#include <set>
 
 #include "frontend/aggregates.hpp"
 #include "frontend/copies.hpp"
 #include "frontend/loops.hpp"
 #include "frontend/payload.hpp"
 #include "frontend/pointer_choices.hpp"
+#include "frontend/start_up.hpp"
 #include "frontend/vocabulary.hpp"
 
 namespace epiline::frontend {
@@ -100,35 +104,30 @@ void check_calls(llvm::Function& process) {
   }
 }
 
-void inline_everything(llvm::Module& module, llvm::Function& process, analysis_managers& managers) {
+/// Inlines every call in the roots, and in nothing else that matters.
+void inline_everything(llvm::Module& module, const std::vector<llvm::Function*>& roots, analysis_managers& managers) {
   for (llvm::Function& function : module) {
-    if (function.isDeclaration() || &function == &process) continue;
+    if (function.isDeclaration()) continue;
     function.removeFnAttr(llvm::Attribute::NoInline);
     function.removeFnAttr(llvm::Attribute::OptimizeNone);
+    if (std::find(roots.begin(), roots.end(), &function) != roots.end()) continue;
     function.addFnAttr(llvm::Attribute::AlwaysInline);
     if (function.hasComdat()) function.setComdat(nullptr);
     function.setLinkage(llvm::GlobalValue::InternalLinkage);
   }
-  process.removeFnAttr(llvm::Attribute::NoInline);
   llvm::ModulePassManager passes;
   passes.addPass(llvm::AlwaysInlinerPass(false));
   passes.run(module, managers.module);
 }
 
-/// Constructors of namespace-scope objects that run before main: hardware has no such moment.
-void check_dynamic_initialisation(const llvm::Module& module, const llvm::Function& process) {
-  for (const llvm::GlobalVariable& global : module.globals()) {
-    bool stored_elsewhere = false;
-    bool used_here = false;
-    for (const llvm::User* user : global.users()) {
-      const auto* instruction = llvm::dyn_cast<llvm::Instruction>(user);
-      if (instruction == nullptr) continue;
-      if (instruction->getFunction() == &process) used_here = true;
-      else if (instruction->getFunction()->getName().starts_with("__cxx_global_var_init")) stored_elsewhere = true;
+/// Refuses variables whose value only running code could tell, where the process uses them.
+void check_initial_values(const std::set<const llvm::GlobalVariable*>& unknown, const llvm::Function& process) {
+  for (const llvm::Instruction& instruction : llvm::instructions(process))
+    for (const llvm::Use& operand : instruction.operands()) {
+      const auto* variable = llvm::dyn_cast<llvm::GlobalVariable>(operand->stripInBoundsConstantOffsets());
+      if (variable == nullptr || unknown.count(variable) == 0) continue;
+      refuse(place_of(instruction), fmt::format("'{}' gets its value when a program starts, from code that cannot be run here: make it constexpr", llvm::demangle(variable->getName().str())));
     }
-    if (used_here && stored_elsewhere)
-      refuse({}, fmt::format("'{}' is initialised at run time before main: make its constructor constexpr", global.getName().str()));
-  }
 }
 
 /// Replaces the stream, argument and result calls by port accesses.
@@ -323,6 +322,17 @@ llvm::FunctionPassManager late_cleanup() {
   return passes;
 }
 
+/// Makes straight code of a function that is to be run here.
+void prepare_start_up(llvm::Function& function, analysis_managers& managers) {
+  if (function.isDeclaration()) return;
+  run_passes(function, managers, early_cleanup());
+  rotate_loops(function, managers.function);
+  managers.function.invalidate(function, llvm::PreservedAnalyses::none());
+  unroll_loops(function, managers.function, true);
+  managers.function.invalidate(function, llvm::PreservedAnalyses::none());
+  run_passes(function, managers, early_cleanup());
+}
+
 }  // namespace
 
 lowered_process lower(compiled_source& source, const source_options& options) {
@@ -335,12 +345,18 @@ lowered_process lower(compiled_source& source, const source_options& options) {
 
   const top_description top = describe_top(module, options.top);
   check_recursion(module);
-  inline_everything(module, process, managers);
-  check_dynamic_initialisation(module, process);
+  std::vector<llvm::Function*> roots = start_up_functions(module);
+  const std::vector<llvm::Function*> start_up = roots;
+  roots.push_back(&process);
+  inline_everything(module, roots, managers);
+  for (llvm::Function* start : start_up) prepare_start_up(*start, managers);
+  const std::set<const llvm::GlobalVariable*> unknown = run_start_up_code(module, start_up);
+  check_initial_values(unknown, process);
   for (llvm::Function& function : module)
     if (&function != &process && !function.isDeclaration()) function.deleteBody();
   managers.function.clear();
 
+  split_whole_structs(process);
   expand_copies(process, unknown_types::kept);
   resolve_pointer_choices(process);
   run_passes(process, managers, early_cleanup());
