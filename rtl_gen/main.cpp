@@ -1,10 +1,9 @@
 // epiline-hls: a C++ top function in, Verilog and reports out.
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <chrono>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -57,10 +56,13 @@ double parse_clock(const std::string& text) {
     end = 0;
   }
   const std::string unit = text.substr(end);
-  if (unit == "MHz" && value > 0) value = 1000.0 / value;
-  else if (!unit.empty() && unit != "ns") end = 0;
+  if (unit == "MHz" && value > 0)
+    value = 1000.0 / value;
+  else if (!unit.empty() && unit != "ns")
+    end = 0;
   if (end == 0 || !(value >= 0.5 && value <= 1000))
-    throw usage_error(fmt::format("--clock {}: not a clock: give a period from 0.5ns to 1000ns, or a frequency like 150MHz", text));
+    throw usage_error(
+        fmt::format("--clock {}: not a clock: give a period from 0.5ns to 1000ns, or a frequency like 150MHz", text));
   return value;
 }
 
@@ -71,7 +73,8 @@ class output_folder {
     std::error_code failed;
     fs::create_directories(path_, failed);
     if (failed || !fs::is_directory(path_))
-      throw usage_error(fmt::format("{}: cannot be made: {}: choose another folder with -o", path, failed ? failed.message() : "it is not a folder"));
+      throw usage_error(fmt::format("{}: cannot be made: {}: choose another folder with -o", path,
+                                    failed ? failed.message() : "it is not a folder"));
   }
   ~output_folder() {
     std::error_code ignored;
@@ -87,7 +90,9 @@ class output_folder {
     std::ofstream out(temporary(file), std::ios::binary);
     out << text;
     out.flush();
-    if (!out) throw usage_error(fmt::format("{}: cannot be written: is the folder writable and the disk not full?", file.string()));
+    if (!out)
+      throw usage_error(
+          fmt::format("{}: cannot be written: is the folder writable and the disk not full?", file.string()));
   }
 
   void commit() {
@@ -102,22 +107,25 @@ class output_folder {
 };
 
 /// The schedule, at the smallest initiation interval allowed that is possible.
-schedule::result find_schedule(const dataflow::graph& graph, const schedule::delay_model& model, const command_line& given,
-                               double period, unsigned allowed_by_source) {
+schedule::result find_schedule(const dataflow::graph& graph, const schedule::delay_model& model,
+                               const command_line& given, double period, unsigned allowed_by_source) {
   schedule::options options;
   options.period = period;
   int largest = static_cast<int>(allowed_by_source);
-  if (given.interval == "auto") largest = 64;
-  else if (given.interval != "1") options.initiation_interval = largest = std::atoi(given.interval.c_str());
+  if (given.interval == "auto")
+    largest = 64;
+  else if (given.interval != "1")
+    options.initiation_interval = largest = std::atoi(given.interval.c_str());
   for (;; ++options.initiation_interval) {
     try {
       return given.scheduler == "random" ? schedule::make_random_schedule(graph, model, options, given.seed)
                                          : schedule::make_schedule(graph, model, options);
     } catch (const schedule::infeasible& refusal) {
       if (options.initiation_interval < largest) continue;
-      if (!given.clock.empty() || options.period != period || !std::isfinite(refusal.smallest_period())) throw;
-      std::cerr << fmt::format("note: {:.2f} ns cannot be reached; made for {:.2f} ns, the smallest period possible. The reason:\n{}\n",
-                               period, refusal.smallest_period(), refusal.what());
+      if (!given.clock.empty() || options.period != period || refusal.smallest_period() <= 0) throw;
+      std::cerr << fmt::format(
+          "note: {:.2f} ns cannot be reached; made for {:.2f} ns, the smallest period possible. The reason:\n{}\n",
+          period, refusal.smallest_period(), refusal.what());
       options.period = refusal.smallest_period();
       --options.initiation_interval;
     }
@@ -156,7 +164,8 @@ void run(const command_line& given) {
   dataflow::graph graph = frontend::build_graph(process, given.source.top.substr(given.source.top.rfind(':') + 1));
   const double frontend_seconds = watch.lap();
 
-  const std::vector<passes::pass_report> pass_log = passes::run_default_pipeline(graph, {.forwarded_writes = block_memory_latency});
+  const std::vector<passes::pass_report> pass_log =
+      passes::run_default_pipeline(graph, {.forwarded_writes = block_memory_latency});
   if (const std::string violation = dataflow::find_violation(graph); !violation.empty())
     throw std::logic_error("the passes made an ill-formed graph: " + violation);
   const double pass_seconds = watch.lap();
@@ -172,7 +181,8 @@ void run(const command_line& given) {
   output.write("report.json", report.dump(2) + "\n");
   output.write("report.txt", emit::report_text(report));
   if (!given.depfile.empty())
-    output.write_file(given.depfile, dependency_file((fs::path(given.output) / (graph.name + ".v")).string(), source.dependencies));
+    output.write_file(given.depfile,
+                      dependency_file((fs::path(given.output) / (graph.name + ".v")).string(), source.dependencies));
   output.commit();
   if (!given.quiet)
     std::cout << fmt::format(
@@ -180,8 +190,8 @@ void run(const command_line& given) {
         "  C++ to graph {:.1f} s, passes {:.1f} s, schedule {:.1f} s, Verilog and reports {:.1f} s\n"
         "  {}/{}.v, {}.graph, report.json, report.txt\n",
         graph.name, graph.nodes.size(), schedule.depth, schedule.period, schedule.initiation_interval,
-        schedule.initiation_interval == 1 ? "" : "s", frontend_seconds, pass_seconds, schedule_seconds, watch.lap(), given.output,
-        graph.name, graph.name);
+        schedule.initiation_interval == 1 ? "" : "s", frontend_seconds, pass_seconds, schedule_seconds, watch.lap(),
+        given.output, graph.name, graph.name);
 }
 
 }  // namespace
@@ -194,20 +204,26 @@ int main(int argc, char** argv) {
   app.add_option("source", given.source.source, "the C++ file that defines the top function")->required();
   app.add_option("--top", given.source.top, "the top function's name")->required();
   app.add_option("-o,--output", given.output, "folder for NAME.v, NAME.graph, report.json and report.txt")->required();
-  app.add_option("--target", given.target, "device whose delays and memories are assumed: ecp5, hx8k, generic")->capture_default_str();
-  app.add_option("--clock", given.clock, "period (6ns) or frequency (150MHz) to reach; without it 6ns, or the smallest period possible");
+  app.add_option("--target", given.target, "device whose delays and memories are assumed: ecp5, hx8k, generic")
+      ->capture_default_str();
+  app.add_option("--clock", given.clock,
+                 "period (6ns) or frequency (150MHz) to reach; without it 6ns, or the smallest period possible");
   app.add_option("-I", given.source.includes, "folder to search for headers")->allow_extra_args(false);
   app.add_option("-D", given.source.definitions, "macro, NAME or NAME=VALUE")->allow_extra_args(false);
-  app.add_option("--ii", given.interval, "clocks from one iteration to the next: a number, or auto for the fewest possible")->capture_default_str();
+  app.add_option("--ii", given.interval,
+                 "clocks from one iteration to the next: a number, or auto for the fewest possible")
+      ->capture_default_str();
   app.add_option("--schedule", given.scheduler, "optimal, or random: any legal one, a test tool")
-      ->check(CLI::IsMember({"optimal", "random"}))->capture_default_str();
+      ->check(CLI::IsMember({"optimal", "random"}))
+      ->capture_default_str();
   app.add_option("--seed", given.seed, "of the random schedule")->capture_default_str();
   app.add_option("--depfile", given.depfile, "write the files read, as a Makefile rule, for build systems");
   app.add_flag("-q,--quiet", given.quiet, "print nothing but problems");
   CLI11_PARSE(app, argc, argv);
   try {
-    if (given.interval != "auto" && (given.interval.find_first_not_of("0123456789") != std::string::npos || given.interval.empty() ||
-                                     given.interval.size() > 3 || std::stoi(given.interval) == 0))
+    if (given.interval != "auto" &&
+        (given.interval.find_first_not_of("0123456789") != std::string::npos || given.interval.empty() ||
+         given.interval.size() > 3 || std::stoi(given.interval) == 0))
       throw usage_error(fmt::format("--ii {}: give a number from 1 to 999, or auto", given.interval));
     run(given);
     return 0;

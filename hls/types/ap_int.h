@@ -333,8 +333,8 @@ class ap_int_base : public detail::bool_conversion<ap_int_base<W, S>, (W > 64)> 
   struct from_raw_tag {};
   using bits_type = backend::raw<W, false>;
 
-  // Depends on W: clang would otherwise instantiate ap_int_base<1, false> before this template's own members are parsed,
-  // and then not know them in constant expressions.
+  // Depends on W: clang would otherwise instantiate ap_int_base<1, false> before this template's own members are
+  // parsed, and then not know them in constant expressions.
   using one_bit = ap_int_base<W / W, false>;
 
   constexpr ap_int_base(const raw& v, from_raw_tag) : stored_(v) {}

@@ -41,27 +41,38 @@ enum class operation : std::uint8_t {
   memory_read,     // (address, enable:1) word of memory `object`; unspecified when enable is 0 (interpreter: 0)
   memory_write,    // (address, data, enable:1) to memory `object`; no result (width 0)
   table,           // (address) word of constant table `object`; an address past its end gives 0
-  add, subtract, multiply,               // (a, b): all three widths equal, wraps
-  divide_unsigned, divide_signed,        // (a, b): equal widths, truncates toward zero; b = 0: all ones
-  remainder_unsigned, remainder_signed,  // (a, b): equal widths, sign of a; b = 0: a
-  bit_and, bit_or, bit_xor,              // (a, b): equal widths
-  bit_not,                               // (a)
-  shift_left, shift_right_logical, shift_right_arithmetic,  // (a, amount): amount unsigned of any width; >= width shifts all out
-  equal, less_unsigned, less_signed,     // (a, b): equal operand widths, result 1 bit
-  select,                                // (condition:1, if one, if zero)
-  concat,                                // (high, ..., low): two or more operands, first on top
-  slice,                                 // (a): bits [low, low + width)
-  extend_zero, extend_sign,              // (a): width > a's width
+  add,
+  subtract,
+  multiply,  // (a, b): all three widths equal, wraps
+  divide_unsigned,
+  divide_signed,  // (a, b): equal widths, truncates toward zero; b = 0: all ones
+  remainder_unsigned,
+  remainder_signed,  // (a, b): equal widths, sign of a; b = 0: a
+  bit_and,
+  bit_or,
+  bit_xor,  // (a, b): equal widths
+  bit_not,  // (a)
+  shift_left,
+  shift_right_logical,
+  shift_right_arithmetic,  // (a, amount): amount unsigned of any width; >= width shifts all out
+  equal,
+  less_unsigned,
+  less_signed,  // (a, b): equal operand widths, result 1 bit
+  select,       // (condition:1, if one, if zero)
+  concat,       // (high, ..., low): two or more operands, first on top
+  slice,        // (a): bits [low, low + width)
+  extend_zero,
+  extend_sign,  // (a): width > a's width
 };
 
 struct node {
   operation kind = operation::constant;
-  unsigned width = 0;                 // of the result; 0 for write and memory_write
+  unsigned width = 0;  // of the result; 0 for write and memory_write
   std::vector<node_id> operands;
-  std::uint32_t object = none;        // port, register, memory or table id, by kind
-  unsigned low = 0;                   // slice only
-  llvm::APInt value{1, 0};            // constant only; its bit width equals `width`
-  std::string name;                   // from the source, may be empty; not unique
+  std::uint32_t object = none;  // port, register, memory or table id, by kind
+  unsigned low = 0;             // slice only
+  llvm::APInt value{1, 0};      // constant only; its bit width equals `width`
+  std::string name;             // from the source, may be empty; not unique
   source_location where;
 };
 
@@ -71,7 +82,7 @@ struct register_state {
   unsigned width = 1;
   std::optional<llvm::APInt> initial;  // value after reset; empty: unspecified (interpreter: 0)
   node_id next = none;
-  node_id enable = none;               // a 1-bit node
+  node_id enable = none;  // a 1-bit node
   /// Every update of this register happens in an iteration that `graph::patient` marks: the next iteration is issued
   /// only after that update has taken place, so its next value may take any number of clocks.
   bool patient = false;
@@ -87,7 +98,7 @@ struct memory {
   /// earlier ones); reading a word written less long ago is a broken promise of the source (#pragma HLS DEPENDENCE):
   /// the interpreter reports it. Within one iteration a read that stands before a write sees the old word.
   unsigned distance = 1;
-  bool distance_promised = false;    // by the source, not established by a pass
+  bool distance_promised = false;  // by the source, not established by a pass
   source_location where;
 };
 
@@ -95,6 +106,7 @@ struct table {
   std::string name;
   unsigned width = 1;
   std::vector<llvm::APInt> values;
+  bool immediate = false;  // its word is needed in the clock of its address: it must not be a block RAM
   source_location where;
 };
 
@@ -123,13 +135,13 @@ struct port {
 };
 
 struct graph {
-  std::string name;                  // the top function's
-  std::vector<std::string> files;    // source file names, as given to the compiler
+  std::string name;                // the top function's
+  std::vector<std::string> files;  // source file names, as given to the compiler
   std::vector<port> ports;
   std::vector<register_state> registers;
   std::vector<memory> memories;
   std::vector<table> tables;
-  std::vector<node> nodes;           // topologically sorted; accesses to one memory stand in program order
+  std::vector<node> nodes;  // topologically sorted; accesses to one memory stand in program order
   /// A 1-bit node: this iteration updates patient registers, so the next one waits for the pipeline; none = never.
   node_id patient = none;
 };

@@ -58,6 +58,7 @@ class printer {
     }
     for (const table& t : g_.tables) {
       put("table {} {}", quoted(t.name), t.width);
+      if (t.immediate) put(" immediate");
       end_line(t.where);
       print_words(t.values);
     }
@@ -415,6 +416,7 @@ class parser {
     table t;
     t.name = line.need_string("the table's name in quotes");
     t.width = line.need_width();
+    t.immediate = line.take("immediate");
     t.where = line.need_place_and_end();
     g_.tables.push_back(std::move(t));
     owner_ = owner::table;

@@ -3,11 +3,11 @@
 #include <llvm/BinaryFormat/Dwarf.h>
 #include <llvm/IR/DebugInfo.h>
 #include <llvm/IR/DebugInfoMetadata.h>
+#include <llvm/IR/Dominators.h>
 #include <llvm/IR/InstIterator.h>
 #include <llvm/IR/IntrinsicInst.h>
 #include <llvm/IR/ReplaceConstant.h>
 #include <llvm/Transforms/Utils/PromoteMemToReg.h>
-#include <llvm/IR/Dominators.h>
 
 #include <map>
 #include <set>
@@ -59,9 +59,7 @@ const llvm::DIType* strip(const llvm::DIType* type) {
   return type;
 }
 
-std::string without_trailing_underscores(llvm::StringRef name) {
-  return name.rtrim('_').str();
-}
+std::string without_trailing_underscores(llvm::StringRef name) { return name.rtrim('_').str(); }
 
 /// An ap_int, or a struct around nothing else: its members are no names of the user's.
 bool wraps_arbitrary_precision(llvm::Type* type) {
@@ -93,14 +91,16 @@ std::string path_name(const variable& of, const path_steps& path, const std::vec
       }
       continue;
     }
-    const std::uint64_t offset =
-        layout.getStructLayout(llvm::cast<llvm::StructType>(step.container))->getElementOffset(static_cast<unsigned>(step.constant)) * 8;
+    const std::uint64_t offset = layout.getStructLayout(llvm::cast<llvm::StructType>(step.container))
+                                     ->getElementOffset(static_cast<unsigned>(step.constant)) *
+                                 8;
     const llvm::DIDerivedType* found = nullptr;
     if (composite != nullptr)
       for (const llvm::DINode* element : composite->getElements()) {
         const auto* member = llvm::dyn_cast<llvm::DIDerivedType>(element);
         if (member == nullptr || member->isStaticMember() || member->getOffsetInBits() != offset) continue;
-        if (member->getTag() != llvm::dwarf::DW_TAG_member && member->getTag() != llvm::dwarf::DW_TAG_inheritance) continue;
+        if (member->getTag() != llvm::dwarf::DW_TAG_member && member->getTag() != llvm::dwarf::DW_TAG_inheritance)
+          continue;
         if (found == nullptr || found->getSizeInBits() == 0) found = member;
       }
     if (found == nullptr) {
@@ -140,29 +140,37 @@ class access_collector {
         add(instruction, path, type, instruction->getType());
       } else if (auto* store = llvm::dyn_cast<llvm::StoreInst>(instruction)) {
         if (store->getPointerOperand() != pointer || store->getValueOperand() == pointer)
-          refuse(place_of(*store), fmt::format("the address of '{}' is stored: pointers must be known at compile time: use the variable itself", variable_.name));
+          refuse(place_of(*store),
+                 fmt::format(
+                     "the address of '{}' is stored: pointers must be known at compile time: use the variable itself",
+                     variable_.name));
         add(instruction, path, type, store->getValueOperand()->getType());
       } else if (auto* call = llvm::dyn_cast<llvm::CallInst>(instruction)) {
         follow_call(*call, path);
       } else if (llvm::isa<llvm::PHINode>(instruction) || llvm::isa<llvm::SelectInst>(instruction)) {
-        refuse(place_of(*instruction), fmt::format("a pointer or reference to '{}' is chosen at run time: choose between the values instead, or use an index", variable_.name));
+        refuse(place_of(*instruction), fmt::format("a pointer or reference to '{}' is chosen at run time: choose "
+                                                   "between the values instead, or use an index",
+                                                   variable_.name));
       } else {
-        refuse(place_of(*instruction), fmt::format("arithmetic on the address of '{}' ({}): use array indices", variable_.name, instruction->getOpcodeName()));
+        refuse(place_of(*instruction), fmt::format("arithmetic on the address of '{}' ({}): use array indices",
+                                                   variable_.name, instruction->getOpcodeName()));
       }
     }
   }
 
   void follow_call(llvm::CallInst& call, const path_steps& path) {
     const llvm::Function* callee = call.getCalledFunction();
-    if (auto* intrinsic = llvm::dyn_cast<llvm::IntrinsicInst>(&call); intrinsic != nullptr &&
+    if (auto* intrinsic = llvm::dyn_cast<llvm::IntrinsicInst>(&call);
+        intrinsic != nullptr &&
         (intrinsic->isLifetimeStartOrEnd() || intrinsic->getIntrinsicID() == llvm::Intrinsic::invariant_start)) {
       dead.push_back(&call);
     } else if (callee != nullptr && callee->getName().starts_with("__epiline_pragma_")) {
       pragmas.emplace_back(path, &call);
       dead.push_back(&call);
     } else {
-      refuse(place_of(call), fmt::format("the address of '{}' is passed to '{}', which is not defined in this source",
-                                         variable_.name, callee != nullptr ? readable_name(*callee) : "a function pointer"));
+      refuse(place_of(call),
+             fmt::format("the address of '{}' is passed to '{}', which is not defined in this source", variable_.name,
+                         callee != nullptr ? readable_name(*callee) : "a function pointer"));
     }
   }
 
@@ -184,18 +192,22 @@ class access_collector {
     }
     while (type != source) {
       if (!step_into_first(path, type))
-        refuse(place_of(element), fmt::format("'{}' is accessed as another type than it has: no type punning", variable_.name));
+        refuse(place_of(element),
+               fmt::format("'{}' is accessed as another type than it has: no type punning", variable_.name));
     }
     llvm::Value* first = *index++;
     if (!is_zero(first)) {
       if (path.empty() || !path.back().is_array())
-        refuse(place_of(element), fmt::format("pointer arithmetic on '{}', which is not an array element: use an array", variable_.name));
+        refuse(place_of(element),
+               fmt::format("pointer arithmetic on '{}', which is not an array element: use an array", variable_.name));
       add_index(element, path.back(), first);
     }
     for (; index != element.idx_end(); ++index) {
       path_step step{type, 0, nullptr};
-      if (auto* constant = llvm::dyn_cast<llvm::ConstantInt>(*index)) step.constant = constant->getSExtValue();
-      else step.dynamic = widened(element, *index);
+      if (auto* constant = llvm::dyn_cast<llvm::ConstantInt>(*index))
+        step.constant = constant->getSExtValue();
+      else
+        step.dynamic = widened(element, *index);
       type = step_type(step);
       path.push_back(step);
     }
@@ -203,8 +215,8 @@ class access_collector {
 
   void descend_bytes(llvm::GetElementPtrInst& element, std::int64_t offset, path_steps& path, llvm::Type*& type) {
     while (offset != 0) {
-      if (auto* structure = llvm::dyn_cast<llvm::StructType>(type); structure != nullptr && offset > 0 &&
-          static_cast<std::uint64_t>(offset) < layout_.getTypeAllocSize(type)) {
+      if (auto* structure = llvm::dyn_cast<llvm::StructType>(type);
+          structure != nullptr && offset > 0 && static_cast<std::uint64_t>(offset) < layout_.getTypeAllocSize(type)) {
         const llvm::StructLayout* fields = layout_.getStructLayout(structure);
         const unsigned field = fields->getElementContainingOffset(static_cast<std::uint64_t>(offset));
         path.push_back({type, field, nullptr});
@@ -270,7 +282,8 @@ class access_collector {
       const path_step& last = path.back();
       const auto index = static_cast<std::uint64_t>(last.constant);
       begin += last.is_array() ? index * layout_.getTypeAllocSize(type)
-                               : layout_.getStructLayout(llvm::cast<llvm::StructType>(last.container))->getElementOffset(static_cast<unsigned>(index));
+                               : layout_.getStructLayout(llvm::cast<llvm::StructType>(last.container))
+                                     ->getElementOffset(static_cast<unsigned>(index));
       type = last.container;
       path.pop_back();
     }
@@ -327,18 +340,22 @@ class access_collector {
     llvm::Type* const whole_type = type;
     while (!type->isSingleValueType())
       if (!step_into_first(path, type)) break;
-    const bool narrower_load = llvm::isa<llvm::LoadInst>(instruction) && type->isIntegerTy() && accessed->isIntegerTy() &&
-                               accessed->getIntegerBitWidth() < type->getIntegerBitWidth();
+    const bool narrower_load = llvm::isa<llvm::LoadInst>(instruction) && type->isIntegerTy() &&
+                               accessed->isIntegerTy() && accessed->getIntegerBitWidth() < type->getIntegerBitWidth();
     if (type != accessed && !narrower_load) {
       if (accessed->isIntegerTy() && add_pieces(instruction, whole_path, whole_type, accessed)) return;
       if (accessed->isFloatingPointTy() || type->isFloatingPointTy())
-        refuse(place_of(*instruction), fmt::format("floating point ('{}'): use ap_int/ap_uint (fixed point) instead", variable_.name));
-      refuse(place_of(*instruction), fmt::format("'{}' is accessed as another type than it has: no unions, no type punning", variable_.name));
+        refuse(place_of(*instruction),
+               fmt::format("floating point ('{}'): use ap_int/ap_uint (fixed point) instead", variable_.name));
+      refuse(place_of(*instruction),
+             fmt::format("'{}' is accessed as another type than it has: no unions, no type punning", variable_.name));
     }
     if (!type->isIntegerTy()) {
       if (type->isFloatingPointTy())
-        refuse(place_of(*instruction), fmt::format("floating point ('{}'): use ap_int/ap_uint (fixed point) instead", variable_.name));
-      refuse(place_of(*instruction), fmt::format("'{}' holds a pointer that is not known at compile time", variable_.name));
+        refuse(place_of(*instruction),
+               fmt::format("floating point ('{}'): use ap_int/ap_uint (fixed point) instead", variable_.name));
+      refuse(place_of(*instruction),
+             fmt::format("'{}' holds a pointer that is not known at compile time", variable_.name));
     }
     accesses.push_back({instruction, std::move(path)});
   }
@@ -350,7 +367,8 @@ class access_collector {
 /// The path without array indices: what the decisions about dimensions are keyed by.
 std::string shape_of(const path_steps& path, std::size_t count) {
   std::string shape;
-  for (std::size_t i = 0; i < count; ++i) shape += path[i].is_array() ? std::string("[]") : fmt::format(".{}", path[i].constant);
+  for (std::size_t i = 0; i < count; ++i)
+    shape += path[i].is_array() ? std::string("[]") : fmt::format(".{}", path[i].constant);
   return shape;
 }
 
@@ -386,10 +404,14 @@ class splitter {
     const auto value = llvm::cast<llvm::ConstantInt>(call.getArgOperand(1))->getSExtValue();
     // A pointer to an array may have decayed to one to its first element; the pragma speaks of the whole.
     std::size_t length = path.size();
-    while (length > 0 && path[length - 1].is_array() && path[length - 1].constant == 0 && path[length - 1].dynamic == nullptr) --length;
+    while (length > 0 && path[length - 1].is_array() && path[length - 1].constant == 0 &&
+           path[length - 1].dynamic == nullptr)
+      --length;
     const std::string shape = shape_of(path, length);
-    if (call.getCalledFunction()->getName() == "__epiline_pragma_dependence") distances_.emplace_back(shape, static_cast<unsigned>(value));
-    else partitioned_.emplace_back(shape, static_cast<unsigned>(value));
+    if (call.getCalledFunction()->getName() == "__epiline_pragma_dependence")
+      distances_.emplace_back(shape, static_cast<unsigned>(value));
+    else
+      partitioned_.emplace_back(shape, static_cast<unsigned>(value));
   }
 
   [[nodiscard]] bool is_partitioned(const path_steps& path, std::size_t position) const {
@@ -425,9 +447,8 @@ class splitter {
       }
     for (std::size_t i = 0; i < path.size(); ++i) {
       if (!path[i].is_array() || dynamic_.count(shape_of(path, i)) == 0) continue;
-      const bool multiplexed = !variable_->is_constant &&
-          (is_partitioned(path, i) || words <= largest_register_array ||
-           (any_large && path[i].size() <= largest_register_array));
+      const bool multiplexed = !variable_->is_constant && (is_partitioned(path, i) || words <= largest_register_array ||
+                                                           (any_large && path[i].size() <= largest_register_array));
       roles[i] = multiplexed ? role::multiplexed : role::address;
     }
     return roles;
@@ -438,7 +459,8 @@ class splitter {
     auto* store = llvm::dyn_cast<llvm::StoreInst>(access.instruction);
     llvm::IRBuilder<> builder(access.instruction);
     if (store != nullptr) {
-      if (variable_->is_constant) refuse(place_of(*store), fmt::format("a store into the constant '{}'", variable_->name));
+      if (variable_->is_constant)
+        refuse(place_of(*store), fmt::format("a store into the constant '{}'", variable_->name));
       write(builder, access.path, roles, 0, store->getValueOperand(), builder.getTrue());
     } else {
       llvm::Value* value = read(builder, access.path, roles, 0);
@@ -489,8 +511,8 @@ class splitter {
     return values.front();
   }
 
-  void write(llvm::IRBuilder<>& builder, path_steps& path, const std::vector<role>& roles, std::size_t from, llvm::Value* value,
-             llvm::Value* enable) {
+  void write(llvm::IRBuilder<>& builder, path_steps& path, const std::vector<role>& roles, std::size_t from,
+             llvm::Value* value, llvm::Value* enable) {
     for (std::size_t i = from; i < path.size(); ++i) {
       if (out_of_range(path[i])) return;
       if (roles[i] != role::multiplexed || path[i].dynamic == nullptr) continue;
@@ -542,7 +564,8 @@ class splitter {
     }
     llvm::AllocaInst* const slot = scalar_for(path, roles, value->getType());
     auto* always = llvm::dyn_cast<llvm::ConstantInt>(enable);
-    if (always == nullptr || !always->isOne()) value = builder.CreateSelect(enable, value, builder.CreateLoad(value->getType(), slot));
+    if (always == nullptr || !always->isOne())
+      value = builder.CreateSelect(enable, value, builder.CreateLoad(value->getType(), slot));
     builder.CreateStore(value, slot);
   }
 
@@ -550,7 +573,8 @@ class splitter {
     llvm::Value* sum = builder.getInt64(0);
     for (std::size_t i = 0; i < path.size(); ++i)
       if (roles[i] == role::address)
-        sum = builder.CreateAdd(builder.CreateMul(sum, builder.getInt64(path[i].size())), index_value(builder, path[i]));
+        sum =
+            builder.CreateAdd(builder.CreateMul(sum, builder.getInt64(path[i].size())), index_value(builder, path[i]));
     return sum;
   }
 
@@ -566,7 +590,8 @@ class splitter {
     if (slot == nullptr) {
       llvm::BasicBlock& entry = function_.getEntryBlock();
       llvm::IRBuilder<> builder(&entry, entry.begin());
-      slot = builder.CreateAlloca(type, nullptr, variable_->name + path_name(*variable_, path, std::vector<bool>(path.size(), false), layout_));
+      slot = builder.CreateAlloca(
+          type, nullptr, variable_->name + path_name(*variable_, path, std::vector<bool>(path.size(), false), layout_));
       made.push_back(slot);
       if (variable_->initial != nullptr) {
         builder.SetInsertPoint(entry.getTerminator());
@@ -588,7 +613,8 @@ class splitter {
     const std::string name = variable_->name + path_name(*variable_, path, is_address, layout_);
     const unsigned width = scalar_type(path)->getIntegerBitWidth();
     if (words > (1u << 24))
-      refuse(variable_->place, fmt::format("'{}' has {} words: too large for memory on the chip", variable_->name, words));
+      refuse(variable_->place,
+             fmt::format("'{}' has {} words: too large for memory on the chip", variable_->name, words));
     std::vector<llvm::APInt> initial;
     if (variable_->initial != nullptr) {
       path_steps at = path;
@@ -596,7 +622,7 @@ class splitter {
     }
     if (variable_->is_constant) {
       found->second = static_cast<unsigned>(result_.tables.size());
-      result_.tables.push_back({name, width, std::move(initial), {}});
+      result_.tables.push_back({name, width, std::move(initial), false, {}});
       result_.table_places.push_back(variable_->place);
     } else {
       found->second = static_cast<unsigned>(result_.memories.size());
@@ -615,7 +641,8 @@ class splitter {
     return found->second;
   }
 
-  void fill_initial(path_steps& path, const std::vector<role>& roles, std::size_t from, unsigned width, std::vector<llvm::APInt>& words) const {
+  void fill_initial(path_steps& path, const std::vector<role>& roles, std::size_t from, unsigned width,
+                    std::vector<llvm::APInt>& words) const {
     for (std::size_t i = from; i < path.size(); ++i) {
       if (roles[i] != role::address) continue;
       const path_step original = path[i];

@@ -35,13 +35,14 @@ struct edge {
 
 class graph_builder {
  public:
-  graph_builder(lowered_process& process, const std::string& name)
-      : steps_(cut_into_steps(process)) {
+  graph_builder(lowered_process& process, const std::string& name) : steps_(cut_into_steps(process)) {
     graph_.name = name;
     graph_.ports = process.ports;
+    for (dataflow::port& port : graph_.ports) port.where = location(process.top_place);
     graph_.memories = process.memories;
     graph_.tables = process.tables;
-    for (std::size_t i = 0; i < graph_.memories.size(); ++i) graph_.memories[i].where = location(process.memory_places[i]);
+    for (std::size_t i = 0; i < graph_.memories.size(); ++i)
+      graph_.memories[i].where = location(process.memory_places[i]);
     for (std::size_t i = 0; i < graph_.tables.size(); ++i) graph_.tables[i].where = location(process.table_places[i]);
   }
 
@@ -171,7 +172,9 @@ class graph_builder {
     return result;
   }
 
-  static bool is_impossible(const BasicBlock* block) { return llvm::isa<llvm::UnreachableInst>(block->getTerminator()); }
+  static bool is_impossible(const BasicBlock* block) {
+    return llvm::isa<llvm::UnreachableInst>(block->getTerminator());
+  }
 
   /// Dominators and postdominators within a step, as positions; -1 = the virtual start or end.
   void find_dominators() {
@@ -188,8 +191,10 @@ class graph_builder {
           continue;
         }
         while (common != at) {
-          if (common > at) common = dominator_[static_cast<std::size_t>(common)];
-          else at = dominator_[static_cast<std::size_t>(at)];
+          if (common > at)
+            common = dominator_[static_cast<std::size_t>(common)];
+          else
+            at = dominator_[static_cast<std::size_t>(at)];
           if (common == -1 || at == -1) {
             common = -1;
             break;
@@ -211,8 +216,10 @@ class graph_builder {
           continue;
         }
         while (common != at) {
-          if (common < at) common = common == count ? count : postdominator_[static_cast<std::size_t>(common)];
-          else at = at == count ? count : postdominator_[static_cast<std::size_t>(at)];
+          if (common < at)
+            common = common == count ? count : postdominator_[static_cast<std::size_t>(common)];
+          else
+            at = at == count ? count : postdominator_[static_cast<std::size_t>(at)];
           if (common == count || at == count) {
             common = count;
             break;
@@ -242,11 +249,13 @@ class graph_builder {
     node_id result = bit(false);
     if (steps_.is_cut(block)) {
       result = root != nullptr ? bit(false) : at_cut(steps_.cut_number.at(block));
-    } else if (const BasicBlock* twin = always_with(block); twin != nullptr && (root == nullptr || dominates(root, twin))) {
+    } else if (const BasicBlock* twin = always_with(block);
+               twin != nullptr && (root == nullptr || dominates(root, twin))) {
       result = predicate(twin, root);
     } else {
       for (const BasicBlock* before : step_predecessors(block))
-        if (root == nullptr || before == root || reaches(root, before)) result = either(result, edge_predicate({before, block}, root));
+        if (root == nullptr || before == root || reaches(root, before))
+          result = either(result, edge_predicate({before, block}, root));
     }
     block_predicates_[key] = result;
     return result;
@@ -257,7 +266,8 @@ class graph_builder {
     const int self = position_.at(block);
     const int above = dominator_[static_cast<std::size_t>(self)];
     if (above < 0) return nullptr;
-    for (int at = above; at < static_cast<int>(steps_.order.size()) && at <= self; at = postdominator_[static_cast<std::size_t>(at)])
+    for (int at = above; at < static_cast<int>(steps_.order.size()) && at <= self;
+         at = postdominator_[static_cast<std::size_t>(at)])
       if (at == self) return steps_.order[static_cast<std::size_t>(above)];
     return nullptr;
   }
@@ -287,8 +297,10 @@ class graph_builder {
     node_id elsewhere = bit(false);
     for (const auto& one : choice.cases()) {
       const node_id here = equal(value, constant(one.getCaseValue()->getValue()));
-      if (one.getCaseSuccessor() == along.to) cases = either(cases, here);
-      else if (!is_impossible(one.getCaseSuccessor())) elsewhere = either(elsewhere, here);
+      if (one.getCaseSuccessor() == along.to)
+        cases = either(cases, here);
+      else if (!is_impossible(one.getCaseSuccessor()))
+        elsewhere = either(elsewhere, here);
     }
     return choice.getDefaultDest() == along.to ? inverse(elsewhere) : cases;
   }
@@ -336,7 +348,8 @@ class graph_builder {
       }
     for (auto& values : live_) {
       ordered_live_.emplace_back(values.begin(), values.end());
-      std::sort(ordered_live_.back().begin(), ordered_live_.back().end(), [this](const Instruction* a, const Instruction* b) { return comes_before(a, b); });
+      std::sort(ordered_live_.back().begin(), ordered_live_.back().end(),
+                [this](const Instruction* a, const Instruction* b) { return comes_before(a, b); });
     }
   }
 
@@ -382,7 +395,8 @@ class graph_builder {
         for (const Instruction* value : ordered_live_[cut]) alive[value].insert(cut);
     std::vector<const Instruction*> values;
     for (const auto& [value, cuts] : alive) values.push_back(value);
-    std::sort(values.begin(), values.end(), [this](const Instruction* a, const Instruction* b) { return comes_before(a, b); });
+    std::sort(values.begin(), values.end(),
+              [this](const Instruction* a, const Instruction* b) { return comes_before(a, b); });
 
     std::map<const Instruction*, const Instruction*> leader;
     std::map<const Instruction*, std::set<unsigned>> occupied = alive;
@@ -401,21 +415,24 @@ class graph_builder {
         const Instruction* b = find(other);
         if (a == b) continue;
         const auto& in_a = occupied.at(a);
-        if (std::any_of(in_a.begin(), in_a.end(), [&](unsigned cut) { return occupied.at(b).count(cut) != 0; })) continue;
+        if (std::any_of(in_a.begin(), in_a.end(), [&](unsigned cut) { return occupied.at(b).count(cut) != 0; }))
+          continue;
         occupied.at(a).insert(occupied.at(b).begin(), occupied.at(b).end());
         leader[b] = a;
       }
     }
     for (const Instruction* value : values) {
       const Instruction* first = find(value);
-      const auto [found, is_new] = register_numbers_.try_emplace(first, static_cast<dataflow::register_id>(graph_.registers.size()));
+      const auto [found, is_new] =
+          register_numbers_.try_emplace(first, static_cast<dataflow::register_id>(graph_.registers.size()));
       if (is_new) {
         dataflow::register_state made;
         made.name = readable(*first);
         made.width = first->getType()->getIntegerBitWidth();
         made.where = location(place_of(*first));
         graph_.registers.push_back(std::move(made));
-        const node_id read = add(operation::register_value, graph_.registers.back().width, {}, graph_.registers.back().where);
+        const node_id read =
+            add(operation::register_value, graph_.registers.back().width, {}, graph_.registers.back().where);
         graph_.nodes[read].object = found->second;
         graph_.nodes[read].name = graph_.registers.back().name;
         register_values_.push_back(read);
@@ -461,7 +478,8 @@ class graph_builder {
     if (const auto* number = llvm::dyn_cast<llvm::ConstantInt>(value)) return constant(number->getValue());
     if (llvm::isa<llvm::UndefValue>(value)) return constant(llvm::APInt(value->getType()->getIntegerBitWidth(), 0));
     const auto* instruction = llvm::dyn_cast<Instruction>(value);
-    if (instruction == nullptr) refuse({}, fmt::format("internal: a value of kind {} reached the dataflow graph", value->getValueID()));
+    if (instruction == nullptr)
+      refuse({}, fmt::format("internal: a value of kind {} reached the dataflow graph", value->getValueID()));
     if (is_cut_phi(instruction)) return register_value(instruction);
     const BasicBlock* home = instruction->getParent();
     if (home == at || (reaches(home, at) && dominates(home, at))) return node_of(*instruction);
@@ -516,34 +534,57 @@ class graph_builder {
     if (width == 0) refuse_instruction(at);
     const auto binary = [&](operation kind) { return add(kind, width, {operand(0), operand(1)}); };
     switch (at.getOpcode()) {
-      case Instruction::Add: return binary(operation::add);
-      case Instruction::Sub: return binary(operation::subtract);
-      case Instruction::Mul: return binary(operation::multiply);
-      case Instruction::UDiv: return binary(operation::divide_unsigned);
-      case Instruction::SDiv: return binary(operation::divide_signed);
-      case Instruction::URem: return binary(operation::remainder_unsigned);
-      case Instruction::SRem: return binary(operation::remainder_signed);
-      case Instruction::And: return binary(operation::bit_and);
-      case Instruction::Or: return binary(operation::bit_or);
-      case Instruction::Xor: return binary(operation::bit_xor);
-      case Instruction::Shl: return binary(operation::shift_left);
-      case Instruction::LShr: return binary(operation::shift_right_logical);
-      case Instruction::AShr: return binary(operation::shift_right_arithmetic);
-      case Instruction::ZExt: return add(operation::extend_zero, width, {operand(0)});
-      case Instruction::SExt: return add(operation::extend_sign, width, {operand(0)});
-      case Instruction::Trunc: return add(operation::slice, width, {operand(0)});
-      case Instruction::Freeze: return operand(0);
-      case Instruction::Select: return choose(operand(0), operand(1), operand(2));
-      case Instruction::ICmp: return compare(llvm::cast<llvm::ICmpInst>(at));
-      case Instruction::PHI: return join(llvm::cast<llvm::PHINode>(at));
-      case Instruction::Call: return call(llvm::cast<llvm::CallInst>(at));
-      default: refuse_instruction(at);
+      case Instruction::Add:
+        return binary(operation::add);
+      case Instruction::Sub:
+        return binary(operation::subtract);
+      case Instruction::Mul:
+        return binary(operation::multiply);
+      case Instruction::UDiv:
+        return binary(operation::divide_unsigned);
+      case Instruction::SDiv:
+        return binary(operation::divide_signed);
+      case Instruction::URem:
+        return binary(operation::remainder_unsigned);
+      case Instruction::SRem:
+        return binary(operation::remainder_signed);
+      case Instruction::And:
+        return binary(operation::bit_and);
+      case Instruction::Or:
+        return binary(operation::bit_or);
+      case Instruction::Xor:
+        return binary(operation::bit_xor);
+      case Instruction::Shl:
+        return binary(operation::shift_left);
+      case Instruction::LShr:
+        return binary(operation::shift_right_logical);
+      case Instruction::AShr:
+        return binary(operation::shift_right_arithmetic);
+      case Instruction::ZExt:
+        return add(operation::extend_zero, width, {operand(0)});
+      case Instruction::SExt:
+        return add(operation::extend_sign, width, {operand(0)});
+      case Instruction::Trunc:
+        return add(operation::slice, width, {operand(0)});
+      case Instruction::Freeze:
+        return operand(0);
+      case Instruction::Select:
+        return choose(operand(0), operand(1), operand(2));
+      case Instruction::ICmp:
+        return compare(llvm::cast<llvm::ICmpInst>(at));
+      case Instruction::PHI:
+        return join(llvm::cast<llvm::PHINode>(at));
+      case Instruction::Call:
+        return call(llvm::cast<llvm::CallInst>(at));
+      default:
+        refuse_instruction(at);
     }
   }
 
   [[noreturn]] static void refuse_instruction(const Instruction& at) {
     const source_place place = place_of(at);
-    if (at.getType()->isFloatingPointTy() || (at.getNumOperands() != 0 && at.getOperand(0)->getType()->isFloatingPointTy()))
+    if (at.getType()->isFloatingPointTy() ||
+        (at.getNumOperands() != 0 && at.getOperand(0)->getType()->isFloatingPointTy()))
       refuse(place, "floating point arithmetic: use ap_int/ap_uint (fixed point) instead");
     if (at.getType()->isPointerTy() || llvm::isa<llvm::LoadInst>(at) || llvm::isa<llvm::StoreInst>(at))
       refuse(place, "a pointer that is not known at compile time: use array indices");
@@ -556,16 +597,26 @@ class graph_builder {
     const node_id a = use(at.getOperand(0), block);
     const node_id b = use(at.getOperand(1), block);
     switch (at.getPredicate()) {
-      case llvm::CmpInst::ICMP_EQ: return add(operation::equal, 1, {a, b});
-      case llvm::CmpInst::ICMP_NE: return negated(operation::equal, a, b);
-      case llvm::CmpInst::ICMP_ULT: return add(operation::less_unsigned, 1, {a, b});
-      case llvm::CmpInst::ICMP_UGT: return add(operation::less_unsigned, 1, {b, a});
-      case llvm::CmpInst::ICMP_UGE: return negated(operation::less_unsigned, a, b);
-      case llvm::CmpInst::ICMP_ULE: return negated(operation::less_unsigned, b, a);
-      case llvm::CmpInst::ICMP_SLT: return add(operation::less_signed, 1, {a, b});
-      case llvm::CmpInst::ICMP_SGT: return add(operation::less_signed, 1, {b, a});
-      case llvm::CmpInst::ICMP_SGE: return negated(operation::less_signed, a, b);
-      default: return negated(operation::less_signed, b, a);
+      case llvm::CmpInst::ICMP_EQ:
+        return add(operation::equal, 1, {a, b});
+      case llvm::CmpInst::ICMP_NE:
+        return negated(operation::equal, a, b);
+      case llvm::CmpInst::ICMP_ULT:
+        return add(operation::less_unsigned, 1, {a, b});
+      case llvm::CmpInst::ICMP_UGT:
+        return add(operation::less_unsigned, 1, {b, a});
+      case llvm::CmpInst::ICMP_UGE:
+        return negated(operation::less_unsigned, a, b);
+      case llvm::CmpInst::ICMP_ULE:
+        return negated(operation::less_unsigned, b, a);
+      case llvm::CmpInst::ICMP_SLT:
+        return add(operation::less_signed, 1, {a, b});
+      case llvm::CmpInst::ICMP_SGT:
+        return add(operation::less_signed, 1, {b, a});
+      case llvm::CmpInst::ICMP_SGE:
+        return negated(operation::less_signed, a, b);
+      default:
+        return negated(operation::less_signed, b, a);
     }
   }
 
@@ -596,7 +647,8 @@ class graph_builder {
     const BasicBlock* block = at.getParent();
     const unsigned width = at.getType()->getIntegerBitWidth();
     if (access_of(at) == access::table) {
-      const node_id address = in_address_width(use(at.getArgOperand(1), block), graph_.tables[object_of(at)].values.size());
+      const node_id address =
+          in_address_width(use(at.getArgOperand(1), block), graph_.tables[object_of(at)].values.size());
       const node_id made = add(operation::table, width, {address});
       graph_.nodes[made].object = object_of(at);
       return made;
@@ -610,10 +662,14 @@ class graph_builder {
     };
     const node_id zero = constant(llvm::APInt(width, 0));
     switch (at.getIntrinsicID()) {
-      case llvm::Intrinsic::umin: return minimum(operation::less_unsigned, false);
-      case llvm::Intrinsic::umax: return minimum(operation::less_unsigned, true);
-      case llvm::Intrinsic::smin: return minimum(operation::less_signed, false);
-      case llvm::Intrinsic::smax: return minimum(operation::less_signed, true);
+      case llvm::Intrinsic::umin:
+        return minimum(operation::less_unsigned, false);
+      case llvm::Intrinsic::umax:
+        return minimum(operation::less_unsigned, true);
+      case llvm::Intrinsic::smin:
+        return minimum(operation::less_signed, false);
+      case llvm::Intrinsic::smax:
+        return minimum(operation::less_signed, true);
       case llvm::Intrinsic::abs: {
         const node_id a = operand(0);
         return choose(add(operation::less_signed, 1, {a, zero}), add(operation::subtract, width, {zero, a}), a);
@@ -629,13 +685,20 @@ class graph_builder {
         return choose(add(operation::less_unsigned, 1, {sum, a}), constant(llvm::APInt::getAllOnes(width)), sum);
       }
       case llvm::Intrinsic::fshl:
-      case llvm::Intrinsic::fshr: return funnel_shift(at, at.getIntrinsicID() == llvm::Intrinsic::fshl);
-      case llvm::Intrinsic::bitreverse: return permuted(operand(0), width, 1);
-      case llvm::Intrinsic::bswap: return permuted(operand(0), width, 8);
-      case llvm::Intrinsic::ctpop: return population_count(operand(0), width);
-      case llvm::Intrinsic::ctlz: return leading_zeros(permuted(operand(0), width, 1), width);
-      case llvm::Intrinsic::cttz: return leading_zeros(operand(0), width);
-      default: refuse_instruction(at);
+      case llvm::Intrinsic::fshr:
+        return funnel_shift(at, at.getIntrinsicID() == llvm::Intrinsic::fshl);
+      case llvm::Intrinsic::bitreverse:
+        return permuted(operand(0), width, 1);
+      case llvm::Intrinsic::bswap:
+        return permuted(operand(0), width, 8);
+      case llvm::Intrinsic::ctpop:
+        return population_count(operand(0), width);
+      case llvm::Intrinsic::ctlz:
+        return leading_zeros(permuted(operand(0), width, 1), width);
+      case llvm::Intrinsic::cttz:
+        return leading_zeros(operand(0), width);
+      default:
+        refuse_instruction(at);
     }
   }
 
@@ -644,9 +707,11 @@ class graph_builder {
     const unsigned width = at.getType()->getIntegerBitWidth();
     const node_id high = use(at.getArgOperand(0), block);
     const node_id low = use(at.getArgOperand(1), block);
-    const node_id amount = add(operation::remainder_unsigned, width, {use(at.getArgOperand(2), block), constant(llvm::APInt(width, width))});
+    const node_id amount = add(operation::remainder_unsigned, width,
+                               {use(at.getArgOperand(2), block), constant(llvm::APInt(width, width))});
     const node_id both_words = add(operation::concat, 2 * width, {high, low});
-    const node_id shifted = add(left ? operation::shift_left : operation::shift_right_logical, 2 * width, {both_words, amount});
+    const node_id shifted =
+        add(left ? operation::shift_left : operation::shift_right_logical, 2 * width, {both_words, amount});
     const node_id result = add(operation::slice, width, {shifted});
     graph_.nodes[result].low = left ? width : 0;
     return result;
@@ -667,7 +732,8 @@ class graph_builder {
 
   node_id population_count(node_id a, unsigned width) {
     std::vector<node_id> sums;
-    for (unsigned i = 0; i < width; ++i) sums.push_back(width == 1 ? a : add(operation::extend_zero, width, {bits_of(a, i, 1)}));
+    for (unsigned i = 0; i < width; ++i)
+      sums.push_back(width == 1 ? a : add(operation::extend_zero, width, {bits_of(a, i, 1)}));
     while (sums.size() > 1) {
       std::vector<node_id> half;
       for (std::size_t i = 0; i < sums.size(); i += 2)
@@ -680,7 +746,8 @@ class graph_builder {
   /// Zeros below the lowest one; `width` when there is none.
   node_id leading_zeros(node_id a, unsigned width) {
     node_id count = constant(llvm::APInt(width, width));
-    for (unsigned i = width; i-- > 0;) count = choose(width == 1 ? a : bits_of(a, i, 1), constant(llvm::APInt(width, i)), count);
+    for (unsigned i = width; i-- > 0;)
+      count = choose(width == 1 ? a : bits_of(a, i, 1), constant(llvm::APInt(width, i)), count);
     return count;
   }
 
@@ -696,11 +763,20 @@ class graph_builder {
     for (const Instruction& instruction : block) {
       const auto* call = llvm::dyn_cast<llvm::CallInst>(&instruction);
       switch (access_of(instruction)) {
-        case access::read: port_accesses_[object_of(instruction)].reads.push_back(call); break;
-        case access::write: port_accesses_[object_of(instruction)].writes.push_back(call); break;
-        case access::memory_read: memory_accesses_[object_of(instruction)].reads.push_back(call); break;
-        case access::memory_write: memory_accesses_[object_of(instruction)].writes.push_back(call); break;
-        default: break;
+        case access::read:
+          port_accesses_[object_of(instruction)].reads.push_back(call);
+          break;
+        case access::write:
+          port_accesses_[object_of(instruction)].writes.push_back(call);
+          break;
+        case access::memory_read:
+          memory_accesses_[object_of(instruction)].reads.push_back(call);
+          break;
+        case access::memory_write:
+          memory_accesses_[object_of(instruction)].writes.push_back(call);
+          break;
+        default:
+          break;
       }
     }
   }
@@ -731,13 +807,15 @@ class graph_builder {
     const node_id enable = predicate(at.getParent());
     const auto [found, is_new] = memory_reads_.try_emplace({object, address, enable}, 0);
     if (is_new) {
-      found->second = add(operation::memory_read, graph_.memories[object].width, {address, enable}, location(place_of(at)));
+      found->second =
+          add(operation::memory_read, graph_.memories[object].width, {address, enable}, location(place_of(at)));
       graph_.nodes[found->second].object = object;
       graph_.nodes[found->second].name = graph_.memories[object].name;
     }
     node_id value = found->second;
     for (const llvm::CallInst* write : memory_accesses_[object].writes) {
-      const bool earlier = write->getParent() == at.getParent() ? write->comesBefore(&at) : reaches(write->getParent(), at.getParent());
+      const bool earlier =
+          write->getParent() == at.getParent() ? write->comesBefore(&at) : reaches(write->getParent(), at.getParent());
       if (!earlier) continue;
       const node_id same = equal(memory_address(*write), address);
       value = choose(both(write_enable(*write), same), use(write->getArgOperand(2), write->getParent()), value);
@@ -839,7 +917,8 @@ class graph_builder {
       for (const Instruction* value : ordered_live_[cut]) {
         const dataflow::register_id target = register_of_.at(value);
         const Value* incoming = value;
-        if (is_cut_phi(value) && value->getParent() == along.to) incoming = llvm::cast<llvm::PHINode>(value)->getIncomingValueForBlock(along.from);
+        if (is_cut_phi(value) && value->getParent() == along.to)
+          incoming = llvm::cast<llvm::PHINode>(value)->getIncomingValueForBlock(along.from);
         add_updates(updates[target], target, incoming, along);
       }
     for (const auto& [cut, target] : state_registers_) {
@@ -854,12 +933,15 @@ class graph_builder {
 
   /// On this edge the register takes `incoming`. A value that only merges others is taken apart by the edges it comes
   /// along: where it is the register's own value, nothing is to be done.
-  void add_updates(std::vector<update>& updates, dataflow::register_id target, const Value* incoming, const edge& along) {
+  void add_updates(std::vector<update>& updates, dataflow::register_id target, const Value* incoming,
+                   const edge& along) {
     if (llvm::isa<llvm::UndefValue>(incoming)) return;
     const auto* merge = llvm::dyn_cast<llvm::PHINode>(incoming);
-    if (merge != nullptr && merge->getParent() == along.from && !is_cut_phi(merge) && along.from->getSingleSuccessor() != nullptr) {
+    if (merge != nullptr && merge->getParent() == along.from && !is_cut_phi(merge) &&
+        along.from->getSingleSuccessor() != nullptr) {
       for (const BasicBlock* before : step_predecessors(along.from))
-        if (runs_block(before)) add_updates(updates, target, merge->getIncomingValueForBlock(before), {before, along.from});
+        if (runs_block(before))
+          add_updates(updates, target, merge->getIncomingValueForBlock(before), {before, along.from});
       return;
     }
     const node_id next = use(incoming, along.from);
@@ -913,7 +995,8 @@ class graph_builder {
   void sort_nodes() {
     std::vector<node_id> roots;
     for (node_id id = 0; id < graph_.nodes.size(); ++id)
-      if (const operation kind = graph_.nodes[id].kind; kind == operation::write || kind == operation::read) roots.push_back(id);
+      if (const operation kind = graph_.nodes[id].kind; kind == operation::write || kind == operation::read)
+        roots.push_back(id);
     for (const dataflow::register_state& state : graph_.registers) {
       roots.push_back(state.next);
       roots.push_back(state.enable);
@@ -934,7 +1017,8 @@ class graph_builder {
           stack.pop_back();
         } else if (next < graph_.nodes[id].operands.size()) {
           ++stack.back().second;
-          if (const node_id operand = graph_.nodes[id].operands[next]; placed[operand] == dataflow::none) stack.emplace_back(operand, 0);
+          if (const node_id operand = graph_.nodes[id].operands[next]; placed[operand] == dataflow::none)
+            stack.emplace_back(operand, 0);
         } else {
           placed[id] = static_cast<node_id>(sorted.size());
           sorted.push_back(graph_.nodes[id]);
@@ -945,8 +1029,10 @@ class graph_builder {
     };
     // Memory writes last: then every memory read stands before the write of its memory. Their operands first.
     for (const node_id root : roots) {
-      if (graph_.nodes[root].kind != operation::memory_write) place(root);
-      else for (const node_id operand : graph_.nodes[root].operands) place(operand);
+      if (graph_.nodes[root].kind != operation::memory_write)
+        place(root);
+      else
+        for (const node_id operand : graph_.nodes[root].operands) place(operand);
     }
     for (const node_id root : roots)
       if (graph_.nodes[root].kind == operation::memory_write) place(root);

@@ -30,7 +30,8 @@ class scratch_folder {
   scratch_folder() {
     llvm::SmallString<128> path;
     if (llvm::sys::fs::createUniqueDirectory("epiline-hls", path))
-      throw refused("error: no temporary folder can be made: check that the folder named by TMPDIR (or /tmp) is writable");
+      throw refused(
+          "error: no temporary folder can be made: check that the folder named by TMPDIR (or /tmp) is writable");
     path_ = std::string(path);
   }
   ~scratch_folder() {
@@ -59,11 +60,11 @@ void write_file(const std::string& path, const std::string& text) {
 /// Runs clang; its messages go to `messages`. Returns whether it succeeded.
 bool run_clang(const std::vector<std::string>& arguments, const std::string& messages) {
   const auto program = llvm::sys::findProgramByName(EPILINE_CLANG);
-  if (!program)
-    throw refused(fmt::format("error: {} is not installed: apt-get install clang-19", EPILINE_CLANG));
+  if (!program) throw refused(fmt::format("error: {} is not installed: apt-get install clang-19", EPILINE_CLANG));
   std::vector<llvm::StringRef> words{*program};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  const std::optional<llvm::StringRef> redirects[] = {llvm::StringRef(), llvm::StringRef(messages), llvm::StringRef(messages)};
+  const std::optional<llvm::StringRef> redirects[] = {llvm::StringRef(), llvm::StringRef(messages),
+                                                      llvm::StringRef(messages)};
   return llvm::sys::ExecuteAndWait(*program, words, std::nullopt, redirects) == 0;
 }
 
@@ -104,15 +105,18 @@ unsigned line_of(const source_options& options) {
 }
 
 [[noreturn]] void refuse_compilation(const source_options& options, const std::string& messages) {
-  if (messages.find(std::string(wrapper_file) + ":1:") == std::string::npos && messages.find("the top returns a value") == std::string::npos)
+  if (messages.find(std::string(wrapper_file) + ":1:") == std::string::npos &&
+      messages.find("the top returns a value") == std::string::npos)
     throw refused(messages + fmt::format("error: {} does not compile (clang's messages above)", options.source));
   if (messages.find("no member named") != std::string::npos || messages.find("undeclared") != std::string::npos)
-    throw refused(fmt::format("{}: error: there is no function '{}' in this file: name the function to synthesize with --top",
-                              options.source, options.top));
+    throw refused(
+        fmt::format("{}: error: there is no function '{}' in this file: name the function to synthesize with --top",
+                    options.source, options.top));
   if (messages.find("the top returns a value") != std::string::npos)
-    throw refused(fmt::format("{}:{}: error: top '{}' returns a value: a top returns void; give results through an "
-                              "hls::stream or a scalar by reference",
-                              options.source, line_of(options), options.top));
+    throw refused(
+        fmt::format("{}:{}: error: top '{}' returns a value: a top returns void; give results through an "
+                    "hls::stream or a scalar by reference",
+                    options.source, line_of(options), options.top));
   throw refused(messages + fmt::format("{}: error: '{}' cannot be a top: a top is one function (not overloaded, not a "
                                        "template) that returns void and takes hls::stream references and scalars",
                                        options.source, options.top));
@@ -121,8 +125,7 @@ unsigned line_of(const source_options& options) {
 }  // namespace
 
 compiled_source compile(const source_options& options, llvm::LLVMContext& context) {
-  if (!fs::is_regular_file(options.source))
-    throw refused(fmt::format("error: {}: no such file", options.source));
+  if (!fs::is_regular_file(options.source)) throw refused(fmt::format("error: {}: no such file", options.source));
   const scratch_folder scratch;
   const std::string wrapper = scratch.file("wrapper.cpp");
   const std::string preprocessed = scratch.file("preprocessed.ii");
@@ -130,8 +133,13 @@ compiled_source compile(const source_options& options, llvm::LLVMContext& contex
   const std::string messages = scratch.file("messages.txt");
   write_file(wrapper, wrapper_source(options));
 
-  std::vector<std::string> common = {"-std=c++17", "-D__SYNTHESIS__", "-fno-exceptions", "-Wno-unknown-pragmas",
-                                     "-Wno-undefined-var-template", "-Wno-invalid-constexpr", "-fno-threadsafe-statics"};
+  std::vector<std::string> common = {"-std=c++17",
+                                     "-D__SYNTHESIS__",
+                                     "-fno-exceptions",
+                                     "-Wno-unknown-pragmas",
+                                     "-Wno-undefined-var-template",
+                                     "-Wno-invalid-constexpr",
+                                     "-fno-threadsafe-statics"};
   std::vector<std::string> preprocess = common;
   preprocess.insert(preprocess.end(), {"-E", wrapper, "-o", preprocessed, "-I", EPILINE_TYPES_DIRECTORY, "-I",
                                        EPILINE_FRONTEND_INCLUDES});

@@ -23,7 +23,8 @@ llvm::Type* descend_to_size(llvm::Type* type, std::uint64_t bytes, const llvm::D
       if (element != 0 && element < bytes && bytes % element == 0)
         return llvm::ArrayType::get(array->getElementType(), bytes / element);
       type = array->getElementType();
-    } else if (auto* structure = llvm::dyn_cast<llvm::StructType>(type); structure != nullptr && structure->getNumElements() > 0) {
+    } else if (auto* structure = llvm::dyn_cast<llvm::StructType>(type);
+               structure != nullptr && structure->getNumElements() > 0) {
       type = structure->getElementType(0);
     } else {
       return nullptr;
@@ -32,13 +33,17 @@ llvm::Type* descend_to_size(llvm::Type* type, std::uint64_t bytes, const llvm::D
   return type->isSized() && layout.getTypeAllocSize(type) == bytes ? type : nullptr;
 }
 
-llvm::Type* pointed_type(llvm::Value* pointer, std::uint64_t bytes, const llvm::DataLayout& layout, unsigned depth = 8) {
-  if (auto* slot = llvm::dyn_cast<llvm::AllocaInst>(pointer)) return descend_to_size(slot->getAllocatedType(), bytes, layout);
-  if (auto* global = llvm::dyn_cast<llvm::GlobalVariable>(pointer)) return descend_to_size(global->getValueType(), bytes, layout);
+llvm::Type* pointed_type(llvm::Value* pointer, std::uint64_t bytes, const llvm::DataLayout& layout,
+                         unsigned depth = 8) {
+  if (auto* slot = llvm::dyn_cast<llvm::AllocaInst>(pointer))
+    return descend_to_size(slot->getAllocatedType(), bytes, layout);
+  if (auto* global = llvm::dyn_cast<llvm::GlobalVariable>(pointer))
+    return descend_to_size(global->getValueType(), bytes, layout);
   if (auto* element = llvm::dyn_cast<llvm::GEPOperator>(pointer)) {
     if (llvm::Type* found = descend_to_size(element->getResultElementType(), bytes, layout)) return found;
     // &array[i] used as the start of the array's rest.
-    if (element->hasAllConstantIndices() || element->getNumIndices() == 1) return pointed_type(element->getPointerOperand(), bytes, layout, depth);
+    if (element->hasAllConstantIndices() || element->getNumIndices() == 1)
+      return pointed_type(element->getPointerOperand(), bytes, layout, depth);
   }
   // One of several objects: they have the same type. A loop of choices ends the search.
   if (depth == 0) return nullptr;
@@ -73,7 +78,8 @@ void collect_paths(llvm::Type* type, std::vector<unsigned>& path, std::vector<st
   }
 }
 
-llvm::Value* element_address(llvm::IRBuilderBase& builder, llvm::Value* base, llvm::Type* type, const std::vector<unsigned>& path) {
+llvm::Value* element_address(llvm::IRBuilderBase& builder, llvm::Value* base, llvm::Type* type,
+                             const std::vector<unsigned>& path) {
   if (path.empty()) return base;
   std::vector<llvm::Value*> indices{builder.getInt32(0)};
   for (const unsigned index : path) indices.push_back(builder.getInt32(index));
@@ -87,10 +93,13 @@ bool expand(llvm::MemIntrinsic& copy, const llvm::DataLayout& layout, unknown_ty
   const std::uint64_t bytes = length->getZExtValue();
   auto* transfer = llvm::dyn_cast<llvm::MemTransferInst>(&copy);
   llvm::Type* type = bytes == 0 ? nullptr : pointed_type(copy.getRawDest(), bytes, layout);
-  if (type == nullptr && transfer != nullptr && bytes != 0) type = pointed_type(transfer->getRawSource(), bytes, layout);
+  if (type == nullptr && transfer != nullptr && bytes != 0)
+    type = pointed_type(transfer->getRawSource(), bytes, layout);
   if (type == nullptr) {
     if (bytes != 0 && otherwise == unknown_types::kept) return false;
-    if (bytes != 0) refuse(place_of(copy), fmt::format("copy of {} bytes of unknown type: assign the members or elements one by one", bytes));
+    if (bytes != 0)
+      refuse(place_of(copy),
+             fmt::format("copy of {} bytes of unknown type: assign the members or elements one by one", bytes));
     return true;
   }
   std::vector<std::vector<unsigned>> paths;
@@ -98,18 +107,23 @@ bool expand(llvm::MemIntrinsic& copy, const llvm::DataLayout& layout, unknown_ty
   std::vector<unsigned> path;
   collect_paths(type, path, paths, types);
   if (paths.size() > largest_copy)
-    refuse(place_of(copy), "a whole array is cleared or copied at once: write a loop over its elements (a memory takes one word a clock)");
+    refuse(
+        place_of(copy),
+        "a whole array is cleared or copied at once: write a loop over its elements (a memory takes one word a clock)");
   llvm::IRBuilder<> builder(&copy);
   std::vector<llvm::Value*> values;  // read all before the first write: memmove's meaning
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (transfer != nullptr) {
-      values.push_back(builder.CreateLoad(types[i], element_address(builder, transfer->getRawSource(), type, paths[i])));
+      values.push_back(
+          builder.CreateLoad(types[i], element_address(builder, transfer->getRawSource(), type, paths[i])));
       continue;
     }
     auto* pattern = llvm::dyn_cast<llvm::ConstantInt>(llvm::cast<llvm::MemSetInst>(copy).getValue());
-    if (pattern == nullptr || !types[i]->isIntegerTy()) refuse(place_of(copy), "memset with a run-time value: write a loop");
+    if (pattern == nullptr || !types[i]->isIntegerTy())
+      refuse(place_of(copy), "memset with a run-time value: write a loop");
     const unsigned stored_bits = static_cast<unsigned>(layout.getTypeStoreSizeInBits(types[i]));
-    values.push_back(builder.getInt(llvm::APInt::getSplat(stored_bits, pattern->getValue().trunc(8)).trunc(types[i]->getIntegerBitWidth())));
+    values.push_back(builder.getInt(
+        llvm::APInt::getSplat(stored_bits, pattern->getValue().trunc(8)).trunc(types[i]->getIntegerBitWidth())));
   }
   for (std::size_t i = 0; i < paths.size(); ++i)
     builder.CreateStore(values[i], element_address(builder, copy.getRawDest(), type, paths[i]));
@@ -132,20 +146,25 @@ void split_whole_structs(llvm::Function& function) {
   std::vector<llvm::Instruction*> whole;
   for (llvm::Instruction& instruction : llvm::instructions(function))
     if ((llvm::isa<llvm::LoadInst>(instruction) && instruction.getType()->isStructTy()) ||
-        (llvm::isa<llvm::StoreInst>(instruction) && llvm::cast<llvm::StoreInst>(instruction).getValueOperand()->getType()->isStructTy()))
+        (llvm::isa<llvm::StoreInst>(instruction) &&
+         llvm::cast<llvm::StoreInst>(instruction).getValueOperand()->getType()->isStructTy()))
       whole.push_back(&instruction);
   for (llvm::Instruction* instruction : whole) {
     auto* store = llvm::dyn_cast<llvm::StoreInst>(instruction);
-    auto* type = llvm::cast<llvm::StructType>(store != nullptr ? store->getValueOperand()->getType() : instruction->getType());
+    auto* type =
+        llvm::cast<llvm::StructType>(store != nullptr ? store->getValueOperand()->getType() : instruction->getType());
     llvm::Value* const pointer = llvm::getLoadStorePointerOperand(instruction);
     llvm::IRBuilder<> builder(instruction);
     llvm::Value* value = llvm::PoisonValue::get(type);
     for (unsigned i = 0; i < type->getNumElements(); ++i) {
       // By bytes, since the object has another type than the registers it travels in.
       const std::uint64_t offset = layout.getStructLayout(type)->getElementOffset(i);
-      llvm::Value* const member = offset == 0 ? pointer : builder.CreateConstInBoundsGEP1_64(builder.getInt8Ty(), pointer, offset);
-      if (store != nullptr) builder.CreateStore(builder.CreateExtractValue(store->getValueOperand(), i), member);
-      else value = builder.CreateInsertValue(value, builder.CreateLoad(type->getElementType(i), member), i);
+      llvm::Value* const member =
+          offset == 0 ? pointer : builder.CreateConstInBoundsGEP1_64(builder.getInt8Ty(), pointer, offset);
+      if (store != nullptr)
+        builder.CreateStore(builder.CreateExtractValue(store->getValueOperand(), i), member);
+      else
+        value = builder.CreateInsertValue(value, builder.CreateLoad(type->getElementType(i), member), i);
     }
     if (store == nullptr) instruction->replaceAllUsesWith(value);
     instruction->eraseFromParent();

@@ -47,7 +47,8 @@ loop_marks take_pragmas(llvm::Function& function, const llvm::LoopInfo& loops) {
   loop_marks marks;
   std::vector<llvm::CallInst*> calls;
   for (llvm::Instruction& instruction : llvm::instructions(function))
-    if (auto* call = llvm::dyn_cast<llvm::CallInst>(&instruction); call != nullptr && call->getCalledFunction() != nullptr)
+    if (auto* call = llvm::dyn_cast<llvm::CallInst>(&instruction);
+        call != nullptr && call->getCalledFunction() != nullptr)
       if (const llvm::StringRef name = call->getCalledFunction()->getName();
           name == "__epiline_pragma_pipeline" || name == "__epiline_pragma_unroll")
         calls.push_back(call);
@@ -55,11 +56,14 @@ loop_marks take_pragmas(llvm::Function& function, const llvm::LoopInfo& loops) {
     const llvm::Loop* loop = loops.getLoopFor(call->getParent());
     const bool pipeline = call->getCalledFunction()->getName() == "__epiline_pragma_pipeline";
     // The outermost loop is the one that calls the top for ever: a pragma there is about the function as a whole.
-    if (loop != nullptr && loop->getLoopDepth() > 1) (pipeline ? marks.pipelined : marks.unrolled).insert(loop->getHeader());
-    else if (pipeline) marks.whole_function = true;
+    if (loop != nullptr && loop->getLoopDepth() > 1)
+      (pipeline ? marks.pipelined : marks.unrolled).insert(loop->getHeader());
+    else if (pipeline)
+      marks.whole_function = true;
     if (pipeline) {
       if (auto* interval = llvm::dyn_cast<llvm::ConstantInt>(call->getArgOperand(0)))
-        marks.initiation_interval = std::max(marks.initiation_interval, static_cast<unsigned>(interval->getZExtValue()));
+        marks.initiation_interval =
+            std::max(marks.initiation_interval, static_cast<unsigned>(interval->getZExtValue()));
     }
     call->eraseFromParent();
   }
@@ -69,7 +73,8 @@ loop_marks take_pragmas(llvm::Function& function, const llvm::LoopInfo& loops) {
 class unroller {
  public:
   unroller(llvm::Function& function, llvm::FunctionAnalysisManager& analyses)
-      : function_(function), loops_(analyses.getResult<llvm::LoopAnalysis>(function)),
+      : function_(function),
+        loops_(analyses.getResult<llvm::LoopAnalysis>(function)),
         evolution_(analyses.getResult<llvm::ScalarEvolutionAnalysis>(function)),
         dominators_(analyses.getResult<llvm::DominatorTreeAnalysis>(function)),
         assumptions_(analyses.getResult<llvm::AssumptionAnalysis>(function)),
@@ -96,9 +101,12 @@ class unroller {
     for (const llvm::BasicBlock* block : loop.blocks())
       for (const llvm::Instruction& instruction : *block) accesses = accesses || is_port_access(instruction);
     if (marked && most == 0)
-      refuse(place_of(*header->getFirstNonPHI()), "#pragma HLS UNROLL on a loop whose number of trips is not known: bound it by a constant and leave early with a condition");
+      refuse(place_of(*header->getFirstNonPHI()),
+             "#pragma HLS UNROLL on a loop whose number of trips is not known: bound it by a constant and leave early "
+             "with a condition");
     if (!accesses && loop.hasNoExitBlocks())
-      refuse(place_of(*header->getFirstNonPHI()), "endless loop without stream access: it can never give a result; bound it or access a stream in it");
+      refuse(place_of(*header->getFirstNonPHI()),
+             "endless loop without stream access: it can never give a result; bound it or access a stream in it");
     bool unroll = marked;
     if (!marked && marks_.pipelined.count(header) == 0 && !accesses && most != 0)
       unroll = inside_kept ? most <= longest_inner_unroll : (exact != 0 && exact <= longest_outer_unroll);
@@ -153,7 +161,8 @@ void rotate_loops(llvm::Function& function, llvm::FunctionAnalysisManager& analy
   for (auto at = order.rbegin(); at != order.rend(); ++at) {
     llvm::Loop& loop = **at;
     bool accesses = false;
-    for (const llvm::Instruction& instruction : *loop.getHeader()) accesses = accesses || access_of(instruction) != access::none;
+    for (const llvm::Instruction& instruction : *loop.getHeader())
+      accesses = accesses || access_of(instruction) != access::none;
     if (accesses || loop.getHeader()->size() > 64) continue;
     llvm::simplifyLoop(&loop, &dominators, &loops, &evolution, &assumptions, nullptr, false);
     llvm::formLCSSARecursively(loop, dominators, &loops, &evolution);
@@ -166,7 +175,8 @@ namespace {
 /// The increment of a counter by a constant that decides something in the loop, or null.
 llvm::BinaryOperator* deciding_increment(const llvm::PHINode& counter, const llvm::Loop& loop) {
   auto* next = llvm::dyn_cast<llvm::BinaryOperator>(counter.getIncomingValueForBlock(loop.getLoopLatch()));
-  if (next == nullptr || next->getOpcode() != Instruction::Add || next->getOperand(0) != &counter || !llvm::isa<llvm::ConstantInt>(next->getOperand(1)))
+  if (next == nullptr || next->getOpcode() != Instruction::Add || next->getOperand(0) != &counter ||
+      !llvm::isa<llvm::ConstantInt>(next->getOperand(1)))
     return nullptr;
   for (const llvm::User* user : next->users())
     if (user != &counter) return next;
@@ -194,7 +204,8 @@ void look_ahead(llvm::Function& function, llvm::FunctionAnalysisManager& analyse
       llvm::IRBuilder<> builder(before->getTerminator());
       llvm::Value* const first = builder.CreateAdd(counter->getIncomingValueForBlock(before), step);
       builder.SetInsertPoint(counter);
-      llvm::PHINode* const ahead = builder.CreatePHI(counter->getType(), 2, counter->getName().split('.').first + "_next");
+      llvm::PHINode* const ahead =
+          builder.CreatePHI(counter->getType(), 2, counter->getName().split('.').first + "_next");
       builder.SetInsertPoint(latch->getTerminator());
       builder.SetCurrentDebugLocation(next->getDebugLoc());
       ahead->addIncoming(first, before);

@@ -68,7 +68,8 @@ top_description describe_top(const llvm::Module& module, const std::string& top)
     result.place = place_of(function);
     for (const llvm::Instruction& instruction : llvm::instructions(function))
       for (const llvm::DbgVariableRecord& record : llvm::filterDbgVars(instruction.getDbgRecordRange()))
-        if (const unsigned argument = record.getVariable()->getArg(); argument != 0 && record.getVariable()->getScope()->getSubprogram() == program)
+        if (const unsigned argument = record.getVariable()->getArg();
+            argument != 0 && record.getVariable()->getScope()->getSubprogram() == program)
           result.parameters.try_emplace(argument - 1, record.getVariable()->getName().str());
   }
   return result;
@@ -80,7 +81,10 @@ void check_recursion(llvm::Module& module) {
     if (!component.hasCycle()) continue;
     for (const llvm::CallGraphNode* node : *component)
       if (const llvm::Function* function = node->getFunction(); function != nullptr && !function->isDeclaration())
-        refuse(place_of(*function), fmt::format("recursion in '{}': hardware has no call stack: write a loop, or recursion over template parameters", readable_name(*function)));
+        refuse(place_of(*function),
+               fmt::format(
+                   "recursion in '{}': hardware has no call stack: write a loop, or recursion over template parameters",
+                   readable_name(*function)));
   }
 }
 
@@ -93,14 +97,19 @@ void check_calls(llvm::Function& process) {
     if (call->isInlineAsm()) refuse(place_of(*call), "inline assembly is not supported");
     const llvm::Function* callee = call->getCalledFunction();
     if (callee == nullptr)
-      refuse(place_of(*call), "a call through a pointer (function pointer or virtual function) that is not known at compile time: call the function directly, or use a template parameter");
+      refuse(place_of(*call),
+             "a call through a pointer (function pointer or virtual function) that is not known at compile time: call "
+             "the function directly, or use a template parameter");
     const llvm::StringRef name = callee->getName();
     if (name.starts_with("__epiline_")) continue;
     if (name == "malloc" || name == "free" || name == "calloc" || name == "realloc" || name.starts_with("_Znw") ||
         name.starts_with("_Zna") || name.starts_with("_Zdl") || name.starts_with("_Zda"))
-      refuse(place_of(*call), fmt::format("heap memory ('{}'): hardware has none: use arrays of constant size", readable_name(*callee)));
+      refuse(place_of(*call),
+             fmt::format("heap memory ('{}'): hardware has none: use arrays of constant size", readable_name(*callee)));
     if (call->doesNotReturn()) continue;  // abort, a failed assertion: such a path is never taken
-    refuse(place_of(*call), fmt::format("call of '{}', which has no definition in this source: define it, or keep it out of the synthesis build with #ifndef __SYNTHESIS__", readable_name(*callee)));
+    refuse(place_of(*call), fmt::format("call of '{}', which has no definition in this source: define it, or keep it "
+                                        "out of the synthesis build with #ifndef __SYNTHESIS__",
+                                        readable_name(*callee)));
   }
 }
 
@@ -126,7 +135,10 @@ void check_initial_values(const std::set<const llvm::GlobalVariable*>& unknown, 
     for (const llvm::Use& operand : instruction.operands()) {
       const auto* variable = llvm::dyn_cast<llvm::GlobalVariable>(operand->stripInBoundsConstantOffsets());
       if (variable == nullptr || unknown.count(variable) == 0) continue;
-      refuse(place_of(instruction), fmt::format("'{}' gets its value when a program starts, from code that cannot be run here: make it constexpr", llvm::demangle(variable->getName().str())));
+      refuse(
+          place_of(instruction),
+          fmt::format("'{}' gets its value when a program starts, from code that cannot be run here: make it constexpr",
+                      llvm::demangle(variable->getName().str())));
     }
 }
 
@@ -139,14 +151,16 @@ class port_lowering {
     std::vector<llvm::CallInst*> calls;
     for (llvm::Instruction& instruction : llvm::instructions(*result_.function))
       if (auto* call = llvm::dyn_cast<llvm::CallInst>(&instruction))
-        if (call->getCalledFunction() != nullptr && call->getCalledFunction()->getName().starts_with("__epiline_")) calls.push_back(call);
+        if (call->getCalledFunction() != nullptr && call->getCalledFunction()->getName().starts_with("__epiline_"))
+          calls.push_back(call);
     for (llvm::CallInst* call : calls) bind_ports(*call);
     for (llvm::CallInst* call : calls) lower_arguments(*call);
     for (llvm::CallInst* call : calls) lower_access(*call);
     finish_call_token();
     for (llvm::CallInst* call : finished_) call->eraseFromParent();
     for (const dataflow::port& port : result_.ports)
-      if (port.width == 0) refuse(top_.place, fmt::format("the stream '{}' is never read or written: remove the parameter", port.name));
+      if (port.width == 0)
+        refuse(top_.place, fmt::format("the stream '{}' is never read or written: remove the parameter", port.name));
   }
 
  private:
@@ -161,7 +175,8 @@ class port_lowering {
   std::string parameter_name(unsigned index) const {
     const auto found = top_.parameters.find(index);
     if (found == top_.parameters.end() || found->second.empty())
-      refuse(top_.place, fmt::format("parameter {} of the top has no name: ports are named after parameters", index + 1));
+      refuse(top_.place,
+             fmt::format("parameter {} of the top has no name: ports are named after parameters", index + 1));
     return found->second;
   }
 
@@ -176,7 +191,8 @@ class port_lowering {
 
   void bind_ports(llvm::CallInst& call) {
     if (name_of(call) == "__epiline_unsupported_parameter")
-      refuse(top_.place, fmt::format("parameter '{}' is a pointer or array: pass data through hls::stream references", parameter_name(index_of(call))));
+      refuse(top_.place, fmt::format("parameter '{}' is a pointer or array: pass data through hls::stream references",
+                                     parameter_name(index_of(call))));
     if (name_of(call) != "__epiline_port") return;
     const unsigned port = add_port(parameter_name(index_of(call)), dataflow::port_kind::stream, true);
     ports_of_objects_[call.getArgOperand(1)] = port;
@@ -210,10 +226,12 @@ class port_lowering {
   void finish_call_token() {
     if (first_argument_ == nullptr) return;
     llvm::IRBuilder<> builder(first_argument_);
-    llvm::Value* const token = make_access(builder, access::read, call_port_, result_.ports[call_port_].width, {}, "call");
+    llvm::Value* const token =
+        make_access(builder, access::read, call_port_, result_.ports[call_port_].width, {}, "call");
     for (const argument& one : arguments_) {
       builder.SetInsertPoint(one.call);
-      llvm::Value* const bits = builder.CreateTrunc(builder.CreateLShr(token, one.offset), builder.getIntNTy(width_of(one.leaves)));
+      llvm::Value* const bits =
+          builder.CreateTrunc(builder.CreateLShr(token, one.offset), builder.getIntNTy(width_of(one.leaves)));
       unpack_token(builder, bits, one.call->getArgOperand(1), one.type, one.leaves);
     }
   }
@@ -223,7 +241,9 @@ class port_lowering {
     if (found == ports_of_objects_.end()) {
       if (llvm::isa<llvm::PHINode>(call.getArgOperand(0)) || llvm::isa<llvm::SelectInst>(call.getArgOperand(0)))
         refuse(place_of(call), "a stream is chosen at run time: access each stream in a branch of its own");
-      refuse(place_of(call), "an internal hls::stream: only the top's stream parameters become hardware: use variables between kernels of one loop");
+      refuse(place_of(call),
+             "an internal hls::stream: only the top's stream parameters become hardware: use variables between kernels "
+             "of one loop");
     }
     return found->second;
   }
@@ -235,7 +255,8 @@ class port_lowering {
       of.fields = fields_of(leaves);
       of.width = width_of(leaves);
     } else if (of.input != input) {
-      refuse(place_of(call), fmt::format("the stream '{}' is both read and written: a stream has one direction", of.name));
+      refuse(place_of(call),
+             fmt::format("the stream '{}' is both read and written: a stream has one direction", of.name));
     }
   }
 
@@ -256,11 +277,14 @@ class port_lowering {
       const std::vector<leaf> leaves = leaves_of(type, layout(), place_of(call));
       set_payload(call, port, true, leaves);
       llvm::IRBuilder<> builder(&call);
-      llvm::Value* const token = make_access(builder, access::read, port, width_of(leaves), {}, result_.ports[port].name);
+      llvm::Value* const token =
+          make_access(builder, access::read, port, width_of(leaves), {}, result_.ports[port].name);
       unpack_token(builder, token, call.getArgOperand(1), type, leaves);
       finished_.push_back(&call);
     } else if (name_of(call) == "__epiline_stream_empty" || name_of(call) == "__epiline_stream_full") {
-      refuse(place_of(call), "empty(), full() and non-blocking access of a stream make results depend on timing: use blocking reads and writes");
+      refuse(place_of(call),
+             "empty(), full() and non-blocking access of a stream make results depend on timing: use blocking reads "
+             "and writes");
     }
   }
 
@@ -292,8 +316,12 @@ void cut_after_noreturn(llvm::Function& process) {
 
 llvm::SimplifyCFGOptions plain_control_flow() {
   // No lookup tables, no merging of accesses across branches: both would make addresses into values.
-  return llvm::SimplifyCFGOptions().convertSwitchRangeToICmp(false).convertSwitchToLookupTable(false).needCanonicalLoops(true)
-      .hoistCommonInsts(false).sinkCommonInsts(false);
+  return llvm::SimplifyCFGOptions()
+      .convertSwitchRangeToICmp(false)
+      .convertSwitchToLookupTable(false)
+      .needCanonicalLoops(true)
+      .hoistCommonInsts(false)
+      .sinkCommonInsts(false);
 }
 
 void run_passes(llvm::Function& function, analysis_managers& managers, llvm::FunctionPassManager passes) {
@@ -344,6 +372,7 @@ lowered_process lower(compiled_source& source, const source_options& options) {
   analysis_managers managers;
 
   const top_description top = describe_top(module, options.top);
+  result.top_place = top.place;
   check_recursion(module);
   std::vector<llvm::Function*> roots = start_up_functions(module);
   const std::vector<llvm::Function*> start_up = roots;

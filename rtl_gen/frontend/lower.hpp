@@ -15,12 +15,13 @@ namespace epiline::frontend {
 
 struct lowered_process {
   llvm::Function* function = nullptr;
+  source_place top_place;
   std::vector<dataflow::port> ports;
   std::vector<dataflow::memory> memories;
   std::vector<dataflow::table> tables;
   std::vector<source_place> memory_places;  // of memories, in order
   std::vector<source_place> table_places;
-  unsigned initiation_interval = 1;         // the largest one a PIPELINE pragma allows
+  unsigned initiation_interval = 1;  // the largest one a PIPELINE pragma allows
 };
 
 /// Lowers the module in place. Throws `refused` for what the flow does not support.

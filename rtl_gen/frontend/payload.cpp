@@ -6,7 +6,8 @@ namespace epiline::frontend {
 
 namespace {
 
-constexpr std::array<const char*, 8> axis_signals = {"tdata", "tdata", "tkeep", "tstrb", "tuser", "tlast", "tid", "tdest"};
+constexpr std::array<const char*, 8> axis_signals = {"tdata", "tdata", "tkeep", "tstrb",
+                                                     "tuser", "tlast", "tid",   "tdest"};
 
 /// The number k of a tag member [0 x [k x iN]]; 0 when it is none.
 unsigned tag_of(llvm::Type* type, unsigned element_bits) {
@@ -20,16 +21,20 @@ unsigned tag_of(llvm::Type* type, unsigned element_bits) {
 /// clang writes the gaps of a struct that mixes C integers with ap types as explicit byte arrays.
 bool is_padding(const llvm::StructType& structure, unsigned index, const llvm::DataLayout& layout) {
   auto* bytes = llvm::dyn_cast<llvm::ArrayType>(structure.getElementType(index));
-  if (!structure.isPacked() || bytes == nullptr || !bytes->getElementType()->isIntegerTy(8) || bytes->getNumElements() > 15) return false;
+  if (!structure.isPacked() || bytes == nullptr || !bytes->getElementType()->isIntegerTy(8) ||
+      bytes->getNumElements() > 15)
+    return false;
   const llvm::StructLayout& offsets = *layout.getStructLayout(const_cast<llvm::StructType*>(&structure));
   const std::uint64_t begin = offsets.getElementOffset(index);
   std::uint64_t alignment = 1;
   if (index + 1 < structure.getNumElements()) {
     alignment = layout.getABITypeAlign(structure.getElementType(index + 1)).value();
   } else {
-    for (llvm::Type* member : structure.elements()) alignment = std::max(alignment, layout.getABITypeAlign(member).value());
+    for (llvm::Type* member : structure.elements())
+      alignment = std::max(alignment, layout.getABITypeAlign(member).value());
   }
-  return begin % alignment != 0 && (begin + bytes->getNumElements()) % alignment == 0 && bytes->getNumElements() < alignment;
+  return begin % alignment != 0 && (begin + bytes->getNumElements()) % alignment == 0 &&
+         bytes->getNumElements() < alignment;
 }
 
 struct collector {
@@ -54,15 +59,18 @@ struct collector {
       const unsigned outside = axis_field;
       for (unsigned i = 0; i < structure->getNumElements(); ++i) {
         llvm::Type* const member = structure->getElementType(i);
-        if (const unsigned tag = tag_of(member, 32); tag != 0) axis_field = tag;
-        else if (!is_padding(*structure, i, layout)) visit_member(member, i);
+        if (const unsigned tag = tag_of(member, 32); tag != 0)
+          axis_field = tag;
+        else if (!is_padding(*structure, i, layout))
+          visit_member(member, i);
       }
       axis_field = outside;
     } else if (type->isFloatingPointTy()) {
       refuse(place, "floating point in a stream or parameter: use ap_int/ap_uint (fixed point) instead");
     } else {
-      refuse(place, "a stream or parameter of pointers or other types that are not built of integers: pass ap_int, "
-                    "ap_uint, C integers or structs of them");
+      refuse(place,
+             "a stream or parameter of pointers or other types that are not built of integers: pass ap_int, "
+             "ap_uint, C integers or structs of them");
     }
   }
 
@@ -87,7 +95,8 @@ llvm::Value* address_of(llvm::IRBuilderBase& builder, llvm::Value* pointer, llvm
 
 bool is_arbitrary_precision(llvm::Type* type, unsigned& width, bool& is_signed) {
   auto* structure = llvm::dyn_cast<llvm::StructType>(type);
-  if (structure == nullptr || structure->getNumElements() < 2 || !structure->getElementType(0)->isIntegerTy()) return false;
+  if (structure == nullptr || structure->getNumElements() < 2 || !structure->getElementType(0)->isIntegerTy())
+    return false;
   for (unsigned i = 1; i < structure->getNumElements(); ++i) {
     if (const unsigned w = tag_of(structure->getElementType(i), 8); w != 0) {
       width = w;
@@ -114,8 +123,7 @@ std::vector<dataflow::field> fields_of(const std::vector<leaf>& leaves) {
   unsigned offset = 0;
   for (const leaf& member : leaves) {
     const std::string signal = axis_signals.at(member.axis_field);
-    if (fields.empty() || fields.back().signal != signal)
-      fields.push_back({signal.substr(1), signal, 0, offset});
+    if (fields.empty() || fields.back().signal != signal) fields.push_back({signal.substr(1), signal, 0, offset});
     fields.back().width += member.width;
     offset += member.width;
   }

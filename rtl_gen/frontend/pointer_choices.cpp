@@ -66,8 +66,11 @@ void spread_over_phi(Instruction& user, llvm::PHINode& phi, const Make& make) {
 /// One step on one instruction; returns whether it changed (and may be gone).
 bool resolve(Instruction& user, const llvm::DominatorTree& dominators) {
   if (auto* load = llvm::dyn_cast<llvm::LoadInst>(&user)) {
-    if (llvm::PHINode* phi = pointer_phi(load->getPointerOperand(), dominators); phi != nullptr && !writes_between(*phi, *load)) {
-      spread_over_phi(*load, *phi, [&](llvm::IRBuilderBase& builder, Value* from) { return builder.CreateLoad(load->getType(), from); });
+    if (llvm::PHINode* phi = pointer_phi(load->getPointerOperand(), dominators);
+        phi != nullptr && !writes_between(*phi, *load)) {
+      spread_over_phi(*load, *phi, [&](llvm::IRBuilderBase& builder, Value* from) {
+        return builder.CreateLoad(load->getType(), from);
+      });
       return true;
     }
     if (auto* choice = llvm::dyn_cast<llvm::SelectInst>(load->getPointerOperand())) {
@@ -79,8 +82,10 @@ bool resolve(Instruction& user, const llvm::DominatorTree& dominators) {
       return true;
     }
   } else if (auto* element = llvm::dyn_cast<llvm::GetElementPtrInst>(&user)) {
-    if (llvm::PHINode* phi = pointer_phi(element->getPointerOperand(), dominators); phi != nullptr && phi->getParent() == element->getParent() && indices_available(*element)) {
-      spread_over_phi(*element, *phi, [&](llvm::IRBuilderBase& builder, Value* from) { return element_of(builder, *element, from); });
+    if (llvm::PHINode* phi = pointer_phi(element->getPointerOperand(), dominators);
+        phi != nullptr && phi->getParent() == element->getParent() && indices_available(*element)) {
+      spread_over_phi(*element, *phi,
+                      [&](llvm::IRBuilderBase& builder, Value* from) { return element_of(builder, *element, from); });
       return true;
     }
     if (auto* choice = llvm::dyn_cast<llvm::SelectInst>(element->getPointerOperand())) {
@@ -100,7 +105,8 @@ bool resolve(Instruction& user, const llvm::DominatorTree& dominators) {
       Value* const target = taken ? choice->getTrueValue() : choice->getFalseValue();
       Value* const old = builder.CreateLoad(value->getType(), target);
       builder.CreateStore(taken ? builder.CreateSelect(choice->getCondition(), value, old)
-                                : builder.CreateSelect(choice->getCondition(), old, value), target);
+                                : builder.CreateSelect(choice->getCondition(), old, value),
+                          target);
     }
     store->eraseFromParent();
     return true;
@@ -116,12 +122,14 @@ void resolve_pointer_choices(llvm::Function& function) {
     changed = false;
     std::vector<Instruction*> users;
     for (Instruction& instruction : llvm::instructions(function))
-      if (llvm::isa<llvm::LoadInst, llvm::StoreInst, llvm::GetElementPtrInst>(instruction)) users.push_back(&instruction);
+      if (llvm::isa<llvm::LoadInst, llvm::StoreInst, llvm::GetElementPtrInst>(instruction))
+        users.push_back(&instruction);
     for (Instruction* user : users) changed = resolve(*user, dominators) || changed;
     // Choices without users left would still look like escaping addresses.
     std::vector<Instruction*> unused;
     for (Instruction& instruction : llvm::instructions(function))
-      if (llvm::isa<llvm::PHINode, llvm::SelectInst, llvm::GetElementPtrInst>(instruction) && instruction.use_empty() && instruction.getType()->isPointerTy())
+      if (llvm::isa<llvm::PHINode, llvm::SelectInst, llvm::GetElementPtrInst>(instruction) && instruction.use_empty() &&
+          instruction.getType()->isPointerTy())
         unused.push_back(&instruction);
     for (Instruction* instruction : unused) instruction->eraseFromParent();
     changed = changed || !unused.empty();

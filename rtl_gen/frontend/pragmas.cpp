@@ -68,24 +68,27 @@ std::string partition_call(const pragma_line& pragma, const source_place& place,
   const std::string variable = pragma.get("variable");
   if (variable.empty()) refuse(place, "#pragma HLS ARRAY_PARTITION without variable=NAME: name the array");
   if (has_kind(pragma, "cyclic") || has_kind(pragma, "block")) {
-    notes.push_back(fmt::format("{}:{}: note: ARRAY_PARTITION cyclic/block of '{}' has no effect: memories get as many "
-                                "read ports as the code needs; use 'complete' for registers",
-                                place.file, place.line, variable));
+    notes.push_back(
+        fmt::format("{}:{}: note: ARRAY_PARTITION cyclic/block of '{}' has no effect: memories get as many "
+                    "read ports as the code needs; use 'complete' for registers",
+                    place.file, place.line, variable));
     return "";
   }
   return fmt::format("__epiline_pragma_partition((const void*)&({}), {});", variable, pragma.get("dim", "1"));
 }
 
 void check_interface(const pragma_line& pragma, const source_place& place) {
-  static const char* const accepted[] = {"axis", "s_axilite", "ap_none", "ap_ctrl_none", "ap_ctrl_hs", "ap_stable",
-                                         "ap_fifo", "ap_vld", "ap_hs", "ap_ovld", "ap_ack", "ap_ctrl_chain"};
+  static const char* const accepted[] = {"axis",       "s_axilite", "ap_none", "ap_ctrl_none",
+                                         "ap_ctrl_hs", "ap_stable", "ap_fifo", "ap_vld",
+                                         "ap_hs",      "ap_ovld",   "ap_ack",  "ap_ctrl_chain"};
   for (const char* mode : accepted)
     if (pragma.has(mode) || llvm::StringRef(pragma.get("mode")).lower() == mode) return;
   std::string mode = pragma.get("mode");
   for (const auto& [key, value] : pragma.options)
     if (mode.empty() && value.empty()) mode = key;
-  refuse(place, "#pragma HLS INTERFACE " + mode + ": only stream and scalar interfaces exist here (axis, s_axilite, ap_none, "
-                "ap_ctrl_none ...): pass data through hls::stream parameters instead of memory interfaces");
+  refuse(place, "#pragma HLS INTERFACE " + mode +
+                    ": only stream and scalar interfaces exist here (axis, s_axilite, ap_none, "
+                    "ap_ctrl_none ...): pass data through hls::stream parameters instead of memory interfaces");
 }
 
 std::string replacement(const pragma_line& pragma, const source_place& place, std::vector<std::string>& notes) {
@@ -95,8 +98,9 @@ std::string replacement(const pragma_line& pragma, const source_place& place, st
   }
   if (pragma.name == "unroll") {
     if (pragma.has("factor"))
-      refuse(place, "#pragma HLS UNROLL factor=N: only full unrolling is supported: drop the factor, or write the "
-                    "partly unrolled loop out as two nested loops");
+      refuse(place,
+             "#pragma HLS UNROLL factor=N: only full unrolling is supported: drop the factor, or write the "
+             "partly unrolled loop out as two nested loops");
     return "__epiline_pragma_unroll();";
   }
   if (pragma.name == "dependence") return dependence_call(pragma, place);
@@ -107,13 +111,24 @@ std::string replacement(const pragma_line& pragma, const source_place& place, st
   }
   // What these ask for is what this flow always does (everything is inlined and pipelined, trees are balanced, loop
   // nests are flattened), or they only inform.
-  static const char* const natural[] = {"inline", "loop_tripcount", "loop_flatten", "expression_balance", "latency",
-                                        "aggregate", "disaggregate", "data_pack", "reset", "top", "protocol",
-                                        "performance", "array_reshape_none"};
+  static const char* const natural[] = {"inline",
+                                        "loop_tripcount",
+                                        "loop_flatten",
+                                        "expression_balance",
+                                        "latency",
+                                        "aggregate",
+                                        "disaggregate",
+                                        "data_pack",
+                                        "reset",
+                                        "top",
+                                        "protocol",
+                                        "performance",
+                                        "array_reshape_none"};
   for (const char* name : natural)
     if (pragma.name == name) return "";
-  static const char* const advisory[] = {"bind_storage", "bind_op", "resource", "allocation", "stream",
-                                         "loop_merge", "function_instantiate", "array_reshape", "stable"};
+  static const char* const advisory[] = {"bind_storage",         "bind_op",       "resource",
+                                         "allocation",           "stream",        "loop_merge",
+                                         "function_instantiate", "array_reshape", "stable"};
   for (const char* name : advisory)
     if (pragma.name == name) {
       notes.push_back(fmt::format("{}:{}: note: #pragma HLS {} has no effect: the flow chooses this itself", place.file,
@@ -121,8 +136,9 @@ std::string replacement(const pragma_line& pragma, const source_place& place, st
       return "";
     }
   if (pragma.name == "dataflow")
-    refuse(place, "#pragma HLS DATAFLOW: concurrent functions joined by internal streams are not supported: call "
-                  "kernels one after another inside one loop, or generate one module a function");
+    refuse(place,
+           "#pragma HLS DATAFLOW: concurrent functions joined by internal streams are not supported: call "
+           "kernels one after another inside one loop, or generate one module a function");
   refuse(place, fmt::format("#pragma HLS {}: not known: remove it", llvm::StringRef(pragma.name).upper()));
 }
 
@@ -144,7 +160,8 @@ bool follow_marker(llvm::StringRef line, source_place& place) {
 pragma_rewrite rewrite_pragmas(const std::string& preprocessed) {
   pragma_rewrite result;
   result.source =
-      "extern \"C\" void __epiline_pragma_pipeline(int) noexcept; extern \"C\" void __epiline_pragma_unroll() noexcept; "
+      "extern \"C\" void __epiline_pragma_pipeline(int) noexcept; extern \"C\" void __epiline_pragma_unroll() "
+      "noexcept; "
       "extern \"C\" void __epiline_pragma_dependence(const void*, int) noexcept; "
       "extern \"C\" void __epiline_pragma_partition(const void*, int) noexcept;\n";
   source_place place;

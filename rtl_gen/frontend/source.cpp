@@ -83,8 +83,6 @@ void refuse(const source_place& place, const std::string& what) {
   throw refused(fmt::format("{}:{}: error: {}", place.file, place.line, what));
 }
 
-std::string readable_name(const llvm::Function& function) {
-  return llvm::demangle(function.getName().str());
-}
+std::string readable_name(const llvm::Function& function) { return llvm::demangle(function.getName().str()); }
 
 }  // namespace epiline::frontend

@@ -16,19 +16,24 @@ std::vector<llvm::Function*> start_up_functions(llvm::Module& module) {
   const auto* entries = list != nullptr ? llvm::dyn_cast<llvm::ConstantArray>(list->getInitializer()) : nullptr;
   if (entries == nullptr) return result;
   for (const llvm::Use& entry : entries->operands()) {
-    auto* start = llvm::dyn_cast<llvm::Function>(llvm::cast<llvm::ConstantStruct>(entry)->getOperand(1)->stripPointerCasts());
+    auto* start =
+        llvm::dyn_cast<llvm::Function>(llvm::cast<llvm::ConstantStruct>(entry)->getOperand(1)->stripPointerCasts());
     if (start == nullptr || start->isDeclaration()) continue;
     std::vector<llvm::Function*> called;
     for (llvm::Instruction& instruction : llvm::instructions(*start))
-      if (auto* call = llvm::dyn_cast<llvm::CallInst>(&instruction); call != nullptr && call->getCalledFunction() != nullptr)
+      if (auto* call = llvm::dyn_cast<llvm::CallInst>(&instruction);
+          call != nullptr && call->getCalledFunction() != nullptr)
         called.push_back(call->getCalledFunction());
-    if (start->getName().starts_with("_GLOBAL__")) result.insert(result.end(), called.begin(), called.end());
-    else result.push_back(start);  // of a template's static member
+    if (start->getName().starts_with("_GLOBAL__"))
+      result.insert(result.end(), called.begin(), called.end());
+    else
+      result.push_back(start);  // of a template's static member
   }
   return result;
 }
 
-std::set<const llvm::GlobalVariable*> run_start_up_code(llvm::Module& module, const std::vector<llvm::Function*>& functions) {
+std::set<const llvm::GlobalVariable*> run_start_up_code(llvm::Module& module,
+                                                        const std::vector<llvm::Function*>& functions) {
   std::set<const llvm::GlobalVariable*> unknown;
   llvm::TargetLibraryInfoImpl library(llvm::Triple(module.getTargetTriple()));
   const llvm::TargetLibraryInfo known(library);
@@ -43,7 +48,8 @@ std::set<const llvm::GlobalVariable*> run_start_up_code(llvm::Module& module, co
     }
     for (const llvm::Instruction& instruction : llvm::instructions(*start))
       for (const llvm::Use& operand : instruction.operands())
-        if (const auto* variable = llvm::dyn_cast<llvm::GlobalVariable>(operand->stripInBoundsConstantOffsets())) unknown.insert(variable);
+        if (const auto* variable = llvm::dyn_cast<llvm::GlobalVariable>(operand->stripInBoundsConstantOffsets()))
+          unknown.insert(variable);
   }
   return unknown;
 }

@@ -14,6 +14,7 @@ namespace epiline::frontend {
 /// Runs these functions: the values they compute become their variables' contents, since hardware has no such moment.
 /// Everything must be inlined into them; a loop is run only when it is unrolled. Returns the variables whose initial
 /// values cannot be computed here; a top that uses one of them must be refused.
-[[nodiscard]] std::set<const llvm::GlobalVariable*> run_start_up_code(llvm::Module& module, const std::vector<llvm::Function*>& functions);
+[[nodiscard]] std::set<const llvm::GlobalVariable*> run_start_up_code(llvm::Module& module,
+                                                                      const std::vector<llvm::Function*>& functions);
 
 }  // namespace epiline::frontend

@@ -44,11 +44,15 @@ class cutter {
     llvm::LoopInfo loops(dominators);
     for (llvm::BasicBlock& block : function_)
       if (const llvm::Loop* loop = loops.getLoopFor(&block)) {
-        for (const llvm::Loop* outer = loop; outer != nullptr; outer = outer->getParentLoop()) loops_of_[&block].insert(outer->getHeader());
+        for (const llvm::Loop* outer = loop; outer != nullptr; outer = outer->getParentLoop())
+          loops_of_[&block].insert(outer->getHeader());
         innermost_[&block] = loop->getHeader();
       }
     for (llvm::Loop* loop : loops.getLoopsInPreorder())
-      if (loop->isInnermost()) cut(*loop->getHeader());
+      if (loop->isInnermost()) {
+        cut(*loop->getHeader());
+        inner_headers_.insert(loop->getHeader());
+      }
   }
 
   /// The call's scalars are taken in a step of their own, so that a frame's last results never wait for the next call,
@@ -61,7 +65,8 @@ class cutter {
           continue;
         // At the block's start when nothing is accessed before: its phis then are registers with reset values.
         llvm::BasicBlock* start = &block;
-        for (const llvm::Instruction* before = block.getFirstNonPHI(); before != &instruction && start == &block; before = before->getNextNode())
+        for (const llvm::Instruction* before = block.getFirstNonPHI(); before != &instruction && start == &block;
+             before = before->getNextNode())
           if (access_of(*before) != access::none) start = split(instruction);
         // Without a loop in the call there is nothing to wait for: every clock may be a call.
         const auto loop = innermost_.find(start);
@@ -102,8 +107,10 @@ class cutter {
         bool enters_loop = false;
         llvm::BasicBlock* around = nullptr;
         for (llvm::BasicBlock* next : llvm::successors(block)) {
-          if (inside.count(next) != 0) around = next;
-          else if (leads_into_loop(next)) enters_loop = true;
+          if (inside.count(next) != 0)
+            around = next;
+          else if (leads_into_loop(next))
+            enters_loop = true;
         }
         if (enters_loop && around != nullptr) {
           from = block;
@@ -122,7 +129,7 @@ class cutter {
 
   bool leads_into_loop(llvm::BasicBlock* block) const {
     for (unsigned hops = 0; block != nullptr && hops < 8; ++hops) {
-      if (is_cut_.count(block) != 0) return innermost_.count(block) != 0 && innermost_.at(block) == block;
+      if (is_cut_.count(block) != 0) return inner_headers_.count(block) != 0;
       block = block->getSingleSuccessor();
     }
     return false;
@@ -158,7 +165,8 @@ class cutter {
     return {};
   }
 
-  /// A step that leaves a loop must not wait for a token read after it: what the loop's last pass writes would wait too.
+  /// A step that leaves a loop must not wait for a token read after it: what the loop's last pass writes would wait
+  /// too.
   void cut_reads_outside_loops() {
     std::vector<llvm::BasicBlock*> pending(cuts_.begin(), cuts_.end());
     for (std::size_t i = 0; i < pending.size(); ++i) {
@@ -169,7 +177,9 @@ class cutter {
         if (block == start || is_cut_.count(block) != 0) continue;
         const auto loops = loops_of_.find(block);
         if (loops != loops_of_.end() && loops->second.count(home->second) != 0) continue;
-        if (std::none_of(block->begin(), block->end(), [](const llvm::Instruction& at) { return access_of(at) == access::read; })) continue;
+        if (std::none_of(block->begin(), block->end(),
+                         [](const llvm::Instruction& at) { return access_of(at) == access::read; }))
+          continue;
         cut(*block);
         pending.push_back(block);
       }
@@ -247,6 +257,7 @@ class cutter {
   std::set<const llvm::BasicBlock*> is_cut_;
   std::map<const llvm::BasicBlock*, std::set<const llvm::BasicBlock*>> loops_of_;  // headers of all loops around it
   std::map<const llvm::BasicBlock*, const llvm::BasicBlock*> innermost_;           // header of the innermost one
+  std::set<const llvm::BasicBlock*> inner_headers_;                                // of loops without loops in them
   llvm::BasicBlock* patient_ = nullptr;
 };
 

@@ -13,9 +13,9 @@
 namespace epiline::frontend {
 
 struct step_structure {
-  std::vector<llvm::BasicBlock*> cuts;             // cuts[0] is where the process starts
+  std::vector<llvm::BasicBlock*> cuts;  // cuts[0] is where the process starts
   std::map<const llvm::BasicBlock*, unsigned> cut_number;
-  std::vector<llvm::BasicBlock*> order;            // all blocks; edges into cut blocks aside, predecessors first
+  std::vector<llvm::BasicBlock*> order;  // all blocks; edges into cut blocks aside, predecessors first
   /// The cut block whose step takes the call's scalars: its values may take many clocks (see graph::patient). -1: none.
   int patient_cut = -1;
 

@@ -21,12 +21,18 @@ enum class access : std::uint8_t { none, read, write, memory_read, memory_write,
 
 inline const char* prefix_of(access kind) {
   switch (kind) {
-    case access::read: return "epiline.read.";
-    case access::write: return "epiline.write.";
-    case access::memory_read: return "epiline.memory.read.";
-    case access::memory_write: return "epiline.memory.write.";
-    case access::table: return "epiline.table.";
-    case access::none: break;
+    case access::read:
+      return "epiline.read.";
+    case access::write:
+      return "epiline.write.";
+    case access::memory_read:
+      return "epiline.memory.read.";
+    case access::memory_write:
+      return "epiline.memory.write.";
+    case access::table:
+      return "epiline.table.";
+    case access::none:
+      break;
   }
   return "";
 }
@@ -66,9 +72,12 @@ inline llvm::CallInst* make_access(llvm::IRBuilderBase& builder, access kind, un
   auto* function = llvm::cast<llvm::Function>(callee.getCallee());
   function->setDoesNotThrow();
   function->setWillReturn();
-  if (kind == access::table) function->setDoesNotAccessMemory();
-  else if (kind == access::memory_read) function->setMemoryEffects(llvm::MemoryEffects::inaccessibleMemOnly(llvm::ModRefInfo::Ref));
-  else function->setMemoryEffects(llvm::MemoryEffects::inaccessibleMemOnly(llvm::ModRefInfo::ModRef));
+  if (kind == access::table)
+    function->setDoesNotAccessMemory();
+  else if (kind == access::memory_read)
+    function->setMemoryEffects(llvm::MemoryEffects::inaccessibleMemOnly(llvm::ModRefInfo::Ref));
+  else
+    function->setMemoryEffects(llvm::MemoryEffects::inaccessibleMemOnly(llvm::ModRefInfo::ModRef));
   return builder.CreateCall(callee, arguments, writes ? llvm::Twine() : name);
 }
 

@@ -11,6 +11,7 @@
 #include "passes/merge_registers.hpp"
 #include "passes/narrow_widths.hpp"
 #include "passes/pack_memories.hpp"
+#include "passes/place_tables.hpp"
 #include "passes/reduce_strength.hpp"
 #include "passes/simplify.hpp"
 
@@ -86,6 +87,7 @@ std::vector<pass_report> run_default_pipeline(graph& g, const pipeline_options& 
   passes.run("pack_memories", pack_memories);
   passes.run("forward_memories", [&](graph& x) { forward_memories(x, options.forwarded_writes); });
   passes.run("simplify", simplify);
+  passes.run("place_tables", place_tables);
   return std::move(passes.reports);
 }
 

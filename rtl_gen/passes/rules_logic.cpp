@@ -1,5 +1,6 @@
 // Rules for and, or, xor, not and select.
 #include <algorithm>
+#include <utility>
 
 #include "passes/rules.hpp"
 
@@ -101,6 +102,24 @@ node_id simplify_not(builder& b, const node& n) {
   return b.kind(a) == operation::bit_not ? b.operand(a, 0) : none;
 }
 
+/// The operands, at its width, of a difference or of the low bits of a wider one; `none` for anything else.
+std::pair<node_id, node_id> difference_of(builder& b, node_id id) {
+  const unsigned width = b.width(id);
+  if (b.kind(id) == operation::slice && b.at(id).low == 0) id = b.operand(id, 0);
+  if (b.kind(id) != operation::subtract) return {none, none};
+  const node_id left = b.operand(id, 0), right = b.operand(id, 1);
+  return {b.slice(left, 0, width), b.slice(right, 0, width)};
+}
+
+/// Whether one = -zero, as far as differences tell: p - q and q - p.
+bool is_negation(builder& b, node_id one, node_id zero) {
+  const auto [p, q] = difference_of(b, one);
+  if (p == none) return false;
+  if (b.is_zero(p) && q == zero) return true;
+  const auto [r, s] = difference_of(b, zero);
+  return r != none && p == s && q == r;
+}
+
 node_id simplify_select(builder& b, const node& n) {
   const node_id c = n.operands[0], one = n.operands[1], zero = n.operands[2];
   if (one == zero) return one;
@@ -126,6 +145,15 @@ node_id simplify_select(builder& b, const node& n) {
     const node_id d = b.operand(one, 0);
     if (b.operand(one, 2) == zero) return b.select(b.bit_and(c, d), b.operand(one, 1), zero);
     if (b.operand(one, 1) == zero) return b.select(b.bit_and(c, b.bit_not(d)), b.operand(one, 2), zero);
+  }
+  // Negate if: (x ^ c) + c takes one adder and no multiplexer, and no branch when simulated.
+  if (n.width > 1) {
+    const bool negate_one = is_negation(b, one, zero);
+    if (negate_one || is_negation(b, zero, one)) {
+      const node_id negate = negate_one ? c : b.bit_not(c);
+      const node_id inverted = b.bit_xor(negate_one ? zero : one, b.make(operation::extend_sign, n.width, {negate}));
+      return b.add(inverted, b.make(operation::extend_zero, n.width, {negate}));
+    }
   }
   // The same extension on both arms is done once, behind the select.
   if (b.kind(one) == b.kind(zero) && (b.kind(one) == operation::extend_zero || b.kind(one) == operation::extend_sign)) {

@@ -301,7 +301,7 @@ double delay_model::distributed_area(std::uint64_t words, std::uint64_t width) c
 
 storage_kind delay_model::storage(const dataflow::table& t) const {
   const std::uint64_t bits = static_cast<std::uint64_t>(t.values.size()) * t.width;
-  return t.values.size() <= 64 || bits <= 2048 ? storage_kind::logic : storage_kind::block;
+  return t.immediate || t.values.size() <= 64 || bits <= 2048 ? storage_kind::logic : storage_kind::block;
 }
 
 unsigned delay_model::blocks(std::uint64_t words, std::uint64_t width) const {

@@ -2,9 +2,10 @@
 //
 //   compiler_check_levels TOKENS RTL [MODELS.so] NAME[@INTERVAL]...
 //
-// for every NAME, made for INTERVAL clocks an iteration (1 if not given): TOKENS/NAME.tokens against RTL/NAME/NAME.graph and, with MODELS.so (written by run_batch.py), the
-// Verilator model of RTL/NAME/NAME.v. Prints "NAME: iterations: N" of the graph, and one line a failure,
-// "NAME: graph: ..." or "NAME: RTL: ..."; exit code 1 if there was one.
+// for every NAME, made for INTERVAL clocks an iteration (1 if not given): TOKENS/NAME.tokens against
+// RTL/NAME/NAME.graph and, with MODELS.so (written by run_batch.py), the Verilator model of RTL/NAME/NAME.v. Prints
+// "NAME: iterations: N" of the graph, and one line a failure, "NAME: graph: ..." or "NAME: RTL: ..."; exit code 1 if
+// there was one.
 
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -76,7 +77,8 @@ int main(int argc, char** argv) {
         if (!model) throw std::runtime_error("no model of that name");
         return model;
       };
-      const std::string difference = test::check_rtl(make_fresh, recorded, seed, graph.waits ? 0 : graph.iterations * interval);
+      const std::string difference =
+          test::check_rtl(make_fresh, recorded, seed, graph.waits ? 0 : graph.iterations * interval);
       if (!difference.empty()) {
         fmt::print("{}: RTL: {}\n", name, difference);
         good = false;

@@ -1,12 +1,13 @@
 #pragma once
-// Runs a top function natively and writes down what went in and what came out, token by token. The files ("NAME.tokens") are the
-// stimulus and the expected answer for the other levels: the dataflow graph's interpreter and the RTL.
+// Runs a top function natively and writes down what went in and what came out, token by token. The files
+// ("NAME.tokens") are the stimulus and the expected answer for the other levels: the dataflow graph's interpreter and
+// the RTL.
 //
 //   port x input stream tdata:12        a port and its signals with their widths in bits
 //   token fff                           one token, one hexadecimal number a signal
 //
-// A driver is a function `EPILINE_DRIVER(name) { ... }`: `s` is its session. It pushes tokens into inputs, calls the top, and
-// drains outputs; it may check what came out against an independent computation with `s.expect`.
+// A driver is a function `EPILINE_DRIVER(name) { ... }`: `s` is its session. It pushes tokens into inputs, calls the
+// top, and drains outputs; it may check what came out against an independent computation with `s.expect`.
 
 #include <algorithm>
 #include <cstdint>
@@ -106,7 +107,12 @@ using token = std::vector<bits>;  // one bit vector a field
 
 /// A payload with AXI4-Stream sidebands.
 template <class T>
-concept axis_beat = requires(T t) { t.data; t.keep; t.strb; t.last; };
+concept axis_beat = requires(T t) {
+  t.data;
+  t.keep;
+  t.strb;
+  t.last;
+};
 
 template <class T>
 struct payload {
@@ -176,9 +182,8 @@ struct payload<T> {
   }
   static void set(T& value, const token& t) {
     std::size_t i = 0;
-    for_each(value, [&](const char*, auto& member) {
-      payload<std::remove_cvref_t<decltype(member)>>::set(member, {t[i++]});
-    });
+    for_each(value,
+             [&](const char*, auto& member) { payload<std::remove_cvref_t<decltype(member)>>::set(member, {t[i++]}); });
   }
 };
 
@@ -285,7 +290,8 @@ class session {
     return low + static_cast<std::int64_t>(random_() % static_cast<std::uint64_t>(high - low + 1));
   }
   bool chance(unsigned percent) { return random_() % 100 < percent; }
-  /// A random token: uniform bits, or often one of the extremes (all zero, all one, only the top bit, all but the top bit).
+  /// A random token: uniform bits, or often one of the extremes (all zero, all one, only the top bit, all but the top
+  /// bit).
   template <class T>
   T any() {
     token t;
@@ -311,8 +317,8 @@ class session {
   /// Compares a drained output with what an independent computation says.
   template <class T, class U>
   void expect_equal(const std::vector<T>& found, const std::vector<U>& wanted, const std::string& what) {
-    expect(found.size() == wanted.size(), what + ": " + std::to_string(found.size()) + " tokens, expected " +
-                                              std::to_string(wanted.size()));
+    expect(found.size() == wanted.size(),
+           what + ": " + std::to_string(found.size()) + " tokens, expected " + std::to_string(wanted.size()));
     for (std::size_t i = 0; i < std::min(found.size(), wanted.size()); ++i) {
       if (found[i] == wanted[i]) continue;
       expect(false, what + ": token " + std::to_string(i) + " differs");
@@ -367,9 +373,9 @@ struct registration {
   registration(const char* name, driver d) { drivers().emplace_back(name, d); }
 };
 
-#define EPILINE_DRIVER(name)                                                                      \
-  static void drive_##name(epiline::compiler_test::session& s);                                   \
-  static const epiline::compiler_test::registration registered_##name{#name, drive_##name};       \
+#define EPILINE_DRIVER(name)                                                                \
+  static void drive_##name(epiline::compiler_test::session& s);                             \
+  static const epiline::compiler_test::registration registered_##name{#name, drive_##name}; \
   static void drive_##name([[maybe_unused]] epiline::compiler_test::session& s)
 
 }  // namespace epiline::compiler_test

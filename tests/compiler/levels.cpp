@@ -20,18 +20,24 @@ constexpr std::uint64_t latency_allowance = 400;
 
 const char* kind_name(dataflow::port_kind kind) {
   switch (kind) {
-    case dataflow::port_kind::stream: return "stream";
-    case dataflow::port_kind::call: return "call";
-    case dataflow::port_kind::result: return "result";
+    case dataflow::port_kind::stream:
+      return "stream";
+    case dataflow::port_kind::call:
+      return "call";
+    case dataflow::port_kind::result:
+      return "result";
   }
   return "";
 }
 
 const char* kind_name(cosim::port_kind kind) {
   switch (kind) {
-    case cosim::port_kind::stream: return "stream";
-    case cosim::port_kind::call: return "call";
-    case cosim::port_kind::result: return "result";
+    case cosim::port_kind::stream:
+      return "stream";
+    case cosim::port_kind::call:
+      return "call";
+    case cosim::port_kind::result:
+      return "result";
   }
   return "";
 }
@@ -45,7 +51,8 @@ const recorded_port& find_recorded(const std::vector<recorded_port>& recorded, c
       return candidate;
     }
   }
-  throw std::runtime_error(fmt::format("port '{}' ({} {}) is not in C++", port.name, port.input ? "input" : "output", kind));
+  throw std::runtime_error(
+      fmt::format("port '{}' ({} {}) is not in C++", port.name, port.input ? "input" : "output", kind));
 }
 
 template <class Ports>

@@ -24,7 +24,8 @@ struct graph_verdict {
 
 /// The circuit, under several patterns of random pauses. `clocks`, if known (not 0), bound the run without pauses
 /// (a pipeline may take some more to fill and drain). Returns an empty string or what is wrong.
-/// Every pattern gets a model of its own from `make`: memories keep their contents over a reset, C++'s statics are fresh.
+/// Every pattern gets a model of its own from `make`: memories keep their contents over a reset, C++'s statics are
+/// fresh.
 [[nodiscard]] std::string check_rtl(const std::function<std::unique_ptr<cosim::rtl_model>()>& make,
                                     const std::vector<recorded_port>& recorded, std::uint64_t seed,
                                     std::uint64_t clocks);

@@ -45,7 +45,8 @@ std::vector<recorded_port> read_token_file(const std::filesystem::path& file) {
       while (words >> word) {
         const std::size_t colon = word.find(':');
         good &= colon != std::string::npos;
-        if (good) port.fields.push_back({word.substr(0, colon), static_cast<unsigned>(std::stoul(word.substr(colon + 1)))});
+        if (good)
+          port.fields.push_back({word.substr(0, colon), static_cast<unsigned>(std::stoul(word.substr(colon + 1)))});
       }
       good &= !port.fields.empty();
     } else if (word == "token" && !ports.empty()) {
@@ -64,7 +65,8 @@ cosim::token_list lay_out(const recorded_port& port, const std::vector<placed_fi
   std::vector<const placed_field*> places;
   for (const recorded_field& field : port.fields) {
     const auto place = std::ranges::find(fields, field.signal, &placed_field::signal);
-    if (place == fields.end()) throw std::runtime_error(fmt::format("port '{}' has no signal {}", port.name, field.signal));
+    if (place == fields.end())
+      throw std::runtime_error(fmt::format("port '{}' has no signal {}", port.name, field.signal));
     if (place->width != field.width) {
       throw std::runtime_error(
           fmt::format("port '{}': {} has {} bits, {} in C++", port.name, field.signal, place->width, field.width));
@@ -72,7 +74,8 @@ cosim::token_list lay_out(const recorded_port& port, const std::vector<placed_fi
     places.push_back(&*place);
   }
   if (fields.size() != port.fields.size()) {
-    throw std::runtime_error(fmt::format("port '{}' has {} signals, {} in C++", port.name, fields.size(), port.fields.size()));
+    throw std::runtime_error(
+        fmt::format("port '{}' has {} signals, {} in C++", port.name, fields.size(), port.fields.size()));
   }
   cosim::token_list result(width);
   for (const std::vector<std::string>& token : port.tokens) {
@@ -88,7 +91,8 @@ std::string describe(const std::vector<placed_field>& fields, const cosim::token
     if (!text.empty()) text += ' ';
     text += field.signal + '=';
     for (unsigned digit = (field.width + 3) / 4; digit-- > 0;) {
-      text += fmt::format("{:x}", cosim::bits_at(tokens[index], field.offset + 4 * digit, std::min(4u, field.width - 4 * digit)));
+      text += fmt::format(
+          "{:x}", cosim::bits_at(tokens[index], field.offset + 4 * digit, std::min(4u, field.width - 4 * digit)));
     }
   }
   return text;
@@ -98,8 +102,8 @@ std::string compare(const std::string& port, const std::vector<placed_field>& fi
                     const cosim::token_list& wanted) {
   for (std::size_t i = 0; i < std::min(found.size(), wanted.size()); ++i) {
     if (std::ranges::equal(found[i], wanted[i])) continue;
-    return fmt::format("output '{}': token {} of {} is {}, native {}", port, i, wanted.size(), describe(fields, found, i),
-                       describe(fields, wanted, i));
+    return fmt::format("output '{}': token {} of {} is {}, native {}", port, i, wanted.size(),
+                       describe(fields, found, i), describe(fields, wanted, i));
   }
   if (found.size() != wanted.size()) {
     return fmt::format("output '{}': {} tokens, native {}", port, found.size(), wanted.size());

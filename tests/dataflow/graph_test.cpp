@@ -26,7 +26,7 @@ small_graph legal() {
   const node_id address = s.make(operation::slice, 2, {in}, none, 1);       // 4
   const node_id word = s.make(operation::memory_read, 8, {address, 0}, m);  // 5
   s.make(operation::memory_write, 0, {address, in, 0}, m);                  // 6
-  s.g.tables.push_back({"rom", 8, {APInt(8, 1), APInt(8, 2)}, {}});
+  s.g.tables.push_back({"rom", 8, {APInt(8, 1), APInt(8, 2)}, false, {}});
   const node_id entry = s.make(operation::table, 8, {address}, 0);             // 7
   const node_id sum = s.make(operation::add, 8, {word, entry});                // 8
   const node_id less = s.make(operation::less_signed, 1, {sum, value});        // 9

@@ -45,8 +45,8 @@ void expect_same(const graph& a, const graph& b) {
   }
   ASSERT_EQ(a.tables.size(), b.tables.size());
   for (std::size_t i = 0; i < a.tables.size(); ++i) {
-    EXPECT_EQ(std::tie(a.tables[i].name, a.tables[i].width, a.tables[i].values),
-              std::tie(b.tables[i].name, b.tables[i].width, b.tables[i].values));
+    EXPECT_EQ(std::tie(a.tables[i].name, a.tables[i].width, a.tables[i].values, a.tables[i].immediate),
+              std::tie(b.tables[i].name, b.tables[i].width, b.tables[i].values, b.tables[i].immediate));
     EXPECT_EQ(members(a.tables[i].where), members(b.tables[i].where));
   }
   ASSERT_EQ(a.nodes.size(), b.nodes.size());

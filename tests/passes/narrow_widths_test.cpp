@@ -202,7 +202,7 @@ TEST(narrow_widths, division_by_what_may_be_zero_keeps_its_width) {
 
 TEST(narrow_widths, tables_lose_bits_that_are_zero_or_unused) {
   small_graph s;
-  s.g.tables.push_back({"rom", 16, {APInt(16, 3), APInt(16, 9)}, {}});
+  s.g.tables.push_back({"rom", 16, {APInt(16, 3), APInt(16, 9)}, false, {}});
   s.write("out", s.make(op::table, 16, {s.read("a", 1)}, 0));
   EXPECT_EQ(narrowed(s.g).tables[0].width, 4u);
 }

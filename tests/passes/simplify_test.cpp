@@ -244,8 +244,8 @@ TEST(remove_dead, removes_what_no_output_needs_and_renumbers) {
   s.update(live, in);
   const auto unread = s.add_memory("unread", 4, 8), used = s.add_memory("used", 4, 8);
   for (const auto m : {unread, used}) s.make(op::memory_write, 0, {s.constant(2, 0), in, one}, m);
-  s.g.tables.push_back({"unused", 8, {APInt(8, 1)}, {}});
-  s.g.tables.push_back({"rom", 8, {APInt(8, 3)}, {}});
+  s.g.tables.push_back({"unused", 8, {APInt(8, 1)}, false, {}});
+  s.g.tables.push_back({"rom", 8, {APInt(8, 3)}, false, {}});
   const node_id word = s.make(op::memory_read, 8, {s.constant(2, 0), one}, used);
   s.write("out", s.make(op::concat, 24, {word, s.value_of(live), s.make(op::table, 8, {in}, 1)}));
   s.g.registers[dead].patient = true;

@@ -18,7 +18,8 @@ EPILINE_DRIVER(bit_packer) {
     const bool flush = c.length == 15;
     for (int b = flush ? -1 : int(c.length) - 1; b >= 0; --b) stream += c.bits[b] ? '1' : '0';
     if (flush) stream.resize((stream.size() + 15) / 16 * 16, '0');
-    for (; stream.size() >= 16; stream.erase(0, 16)) wanted.push_back(unsigned(std::stoul(stream.substr(0, 16), nullptr, 2)));
+    for (; stream.size() >= 16; stream.erase(0, 16))
+      wanted.push_back(unsigned(std::stoul(stream.substr(0, 16), nullptr, 2)));
   }
   s.expect_equal(words.drain(), wanted, "words");
 }

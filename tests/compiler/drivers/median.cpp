@@ -21,7 +21,8 @@ EPILINE_DRIVER(median) {
         std::vector<int> around;
         for (int j = -1; j <= 1; ++j) {
           for (int i = -1; i <= 1; ++i) {
-            around.push_back(image[std::size_t(std::clamp(y + j, 0, height - 1) * width + std::clamp(x + i, 0, width - 1))]);
+            around.push_back(
+                image[std::size_t(std::clamp(y + j, 0, height - 1) * width + std::clamp(x + i, 0, width - 1))]);
           }
         }
         std::sort(around.begin(), around.end());

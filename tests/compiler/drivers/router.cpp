@@ -17,8 +17,10 @@ EPILINE_DRIVER(router) {
     beat.last = i == 299 || s.chance(10);
     in.push(beat);
     const unsigned to = beat.dest.to_uint();
-    if (to < 3) wanted[to].push_back(beat.data.to_uint());
-    else ++count;
+    if (to < 3)
+      wanted[to].push_back(beat.data.to_uint());
+    else
+      ++count;
     if (beat.last) {
       wanted_lost.push_back(count);
       count = 0;

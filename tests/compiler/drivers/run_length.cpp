@@ -21,7 +21,8 @@ EPILINE_DRIVER(run_length) {
     run_length(in.stream, out.stream);
     std::vector<int> found;
     const auto pairs = out.drain();
-    for (const out_pkt& pair : pairs) found.insert(found.end(), pair.data.range(23, 16).to_uint(), int(pair.data.range(15, 0)));
+    for (const out_pkt& pair : pairs)
+      found.insert(found.end(), pair.data.range(23, 16).to_uint(), int(pair.data.range(15, 0)));
     s.expect_equal(found, values, "expanded");
     s.expect(!pairs.empty() && pairs.back().last, "the last pair ends the packet");
   }

@@ -5,5 +5,5 @@ struct sample_t {
 };
 
 void float_payload(hls::stream<sample_t>& in, hls::stream<sample_t>& out) {  // refused: float
-  out.write(in.read());  // refused: float
+  out.write(in.read());                                                      // refused: float
 }

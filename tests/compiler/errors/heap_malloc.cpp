@@ -1,4 +1,5 @@
 #include <stdlib.h>
+
 #include "ap_int.h"
 #include "hls_stream.h"
 

@@ -1,4 +1,5 @@
 #include <cmath>
+
 #include "hls_stream.h"
 
 void math_function(hls::stream<int>& in, hls::stream<int>& out) {

@@ -2,5 +2,5 @@
 #include "hls_stream.h"
 
 void pointer_parameter(hls::stream<int>& in, int* values) {  // refused: values
-  for (int i = 0; i < 16; ++i) values[i] = in.read();  // refused: values
+  for (int i = 0; i < 16; ++i) values[i] = in.read();        // refused: values
 }

@@ -1,4 +1,5 @@
 #include <stdio.h>
+
 #include "hls_stream.h"
 
 void printing(hls::stream<int>& in, hls::stream<int>& out) {

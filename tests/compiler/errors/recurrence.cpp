@@ -4,7 +4,7 @@
 #include "hls_stream.h"
 
 void recurrence(hls::stream<ap_uint<32>>& in, hls::stream<ap_uint<32>>& out) {
-#pragma HLS PIPELINE II=1
+#pragma HLS PIPELINE II = 1
   static ap_uint<32> state = 1;
   const ap_uint<32> x = in.read();
   state = state * state + x;  // refused: period

@@ -7,5 +7,5 @@ static int offset = elsewhere();  // refused: offset|elsewhere
 
 void started_object(hls::stream<int>& in, hls::stream<int>& out) {
   out.write(in.read() + offset);  // refused: offset
-  offset += 1;  // refused: offset
+  offset += 1;                    // refused: offset
 }

@@ -7,6 +7,6 @@ union bits_t {
 
 void type_pun(hls::stream<unsigned>& in, hls::stream<unsigned>& out, int which) {
   static bits_t state;
-  state.number ^= in.read();  // refused: union|type|overlap|byte
+  state.number ^= in.read();          // refused: union|type|overlap|byte
   out.write(state.bytes[which & 3]);  // refused: union|type|overlap|byte
 }

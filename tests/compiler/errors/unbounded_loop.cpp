@@ -5,7 +5,7 @@
 void unbounded_loop(hls::stream<ap_uint<8>>& in, hls::stream<ap_uint<8>>& out) {
   static ap_uint<32> total = 0;
   out.write(in.read());
-  for (;;) {  // refused: loop
+  for (;;) {     // refused: loop
     total += 3;  // refused: loop
   }
 }

@@ -15,5 +15,5 @@ void virtual_call(hls::stream<int>& in, hls::stream<int>& out, bool which) {
   doubler twice;
   halver half;
   const filter* chosen = which ? static_cast<const filter*>(&twice) : &half;  // refused: virtual|pointer|function
-  out.write(chosen->apply(in.read()));  // refused: virtual|pointer|function
+  out.write(chosen->apply(in.read()));                                        // refused: virtual|pointer|function
 }

@@ -1,5 +1,5 @@
-// Merges two packet streams: packets alternate while both are wanted; `order` says which one comes next (0, 1), or 2 for
-// "drop one token of the first", 3 for "insert a marker".
+// Merges two packet streams: packets alternate while both are wanted; `order` says which one comes next (0, 1), or 2
+// for "drop one token of the first", 3 for "insert a marker".
 #include "ap_axi_sdata.h"
 #include "ap_int.h"
 #include "hls_stream.h"
@@ -18,17 +18,17 @@ static word_t marker(ap_uint<4> tag) {
   return w;
 }
 
-void arbiter(hls::stream<ap_uint<2> >& order, hls::stream<word_t>& first, hls::stream<word_t>& second,
+void arbiter(hls::stream<ap_uint<2>>& order, hls::stream<word_t>& first, hls::stream<word_t>& second,
              hls::stream<word_t>& merged) {
-#pragma HLS INTERFACE axis port=order
-#pragma HLS INTERFACE axis port=first
-#pragma HLS INTERFACE axis port=second
-#pragma HLS INTERFACE axis port=merged
+#pragma HLS INTERFACE axis port = order
+#pragma HLS INTERFACE axis port = first
+#pragma HLS INTERFACE axis port = second
+#pragma HLS INTERFACE axis port = merged
   ap_uint<2> next = order.read();
   bool last = false;
   ap_uint<4> beats = 0;
   do {
-#pragma HLS PIPELINE II=1
+#pragma HLS PIPELINE II = 1
     word_t w;
     bool forward = true;
     switch (next) {

@@ -10,8 +10,8 @@ struct code_t {
   ap_uint<4> length;
 };
 
-void bit_packer(hls::stream<code_t>& codes, hls::stream<ap_uint<16> >& words) {
-#pragma HLS PIPELINE II=1
+void bit_packer(hls::stream<code_t>& codes, hls::stream<ap_uint<16>>& words) {
+#pragma HLS PIPELINE II = 1
   static ap_uint<32> pool = 0;   // valid bits at the top
   static ap_uint<6> filled = 0;  // 0..15 between calls
   const code_t c = codes.read();

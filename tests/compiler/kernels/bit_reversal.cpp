@@ -5,18 +5,18 @@
 
 #define LOG2 6
 
-void bit_reversal(hls::stream<ap_uint<24> >& in, hls::stream<ap_uint<24> >& out) {
-#pragma HLS INTERFACE axis port=in
-#pragma HLS INTERFACE axis port=out
+void bit_reversal(hls::stream<ap_uint<24>>& in, hls::stream<ap_uint<24>>& out) {
+#pragma HLS INTERFACE axis port = in
+#pragma HLS INTERFACE axis port = out
   ap_uint<24> block[1 << LOG2];
 write_loop:
   for (int i = 0; i < (1 << LOG2); i++) {
-#pragma HLS PIPELINE II=1
+#pragma HLS PIPELINE II = 1
     block[i] = in.read();
   }
 read_loop:
   for (ap_uint<LOG2 + 1> i = 0; i < (1 << LOG2); i++) {
-#pragma HLS PIPELINE II=1
+#pragma HLS PIPELINE II = 1
     ap_uint<LOG2> address = i.range(LOG2 - 1, 0);
     address.reverse();
     ap_uint<24> v = block[address];

@@ -10,22 +10,22 @@ typedef ap_axiu<1, 1, 1, 1> pixel_out;
 void bounding_box(hls::stream<pixel_in>& in, hls::stream<pixel_out>& out, unsigned short width, unsigned short height,
                   unsigned char level, unsigned short& left, unsigned short& top, unsigned short& right,
                   unsigned short& bottom, unsigned int& area) {
-#pragma HLS INTERFACE axis port=in
-#pragma HLS INTERFACE axis port=out
-#pragma HLS INTERFACE s_axilite port=width
-#pragma HLS INTERFACE s_axilite port=height
-#pragma HLS INTERFACE s_axilite port=level
-#pragma HLS INTERFACE s_axilite port=left
-#pragma HLS INTERFACE s_axilite port=top
-#pragma HLS INTERFACE s_axilite port=right
-#pragma HLS INTERFACE s_axilite port=bottom
-#pragma HLS INTERFACE s_axilite port=area
-#pragma HLS INTERFACE s_axilite port=return
+#pragma HLS INTERFACE axis port = in
+#pragma HLS INTERFACE axis port = out
+#pragma HLS INTERFACE s_axilite port = width
+#pragma HLS INTERFACE s_axilite port = height
+#pragma HLS INTERFACE s_axilite port = level
+#pragma HLS INTERFACE s_axilite port = left
+#pragma HLS INTERFACE s_axilite port = top
+#pragma HLS INTERFACE s_axilite port = right
+#pragma HLS INTERFACE s_axilite port = bottom
+#pragma HLS INTERFACE s_axilite port = area
+#pragma HLS INTERFACE s_axilite port = return
   unsigned short x0 = 0xffff, y0 = 0xffff, x1 = 0, y1 = 0;
   unsigned int n = 0;
   for (unsigned short y = 0; y < height; ++y) {
     for (unsigned short x = 0; x < width; ++x) {
-#pragma HLS PIPELINE II=1
+#pragma HLS PIPELINE II = 1
       const pixel_in p = in.read();
       pixel_out q;
       const bool above = p.data > level;

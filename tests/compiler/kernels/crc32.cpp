@@ -6,7 +6,7 @@
 
 typedef ap_axiu<8, 1, 1, 1> byte_t;
 
-void crc32(hls::stream<byte_t>& data, hls::stream<ap_uint<32> >& checksum) {
+void crc32(hls::stream<byte_t>& data, hls::stream<ap_uint<32>>& checksum) {
 #pragma HLS INTERFACE axis port = data
 #pragma HLS INTERFACE axis port = checksum
 #pragma HLS INTERFACE ap_ctrl_none port = return

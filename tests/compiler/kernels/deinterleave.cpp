@@ -1,6 +1,7 @@
-// Splits length-prefixed records: header (count, kind), then `count` words; even records go to one output, odd ones to the other,
-// with a run-time number of records. Loop bounds come from the stream.
+// Splits length-prefixed records: header (count, kind), then `count` words; even records go to one output, odd ones to
+// the other, with a run-time number of records. Loop bounds come from the stream.
 #include <stdint.h>
+
 #include "ap_int.h"
 #include "hls_stream.h"
 
@@ -10,8 +11,8 @@ void deinterleave(hls::stream<uint32_t>& in, hls::stream<uint32_t>& even, hls::s
     const uint32_t count = header & 0xff;
     const bool is_odd = (header >> 8) & 1;
     for (uint32_t i = 0; i < count; ++i) {
-#pragma HLS PIPELINE II=1
-#pragma HLS LOOP_TRIPCOUNT min=0 max=255 avg=16
+#pragma HLS PIPELINE II = 1
+#pragma HLS LOOP_TRIPCOUNT min = 0 max = 255 avg = 16
       const uint32_t word = in.read();
       if (is_odd)
         odd.write(word ^ (i << 24));

@@ -14,7 +14,7 @@ void histogram(hls::stream<byte_t>& in, hls::stream<count_t>& out) {
   if (!cleared) {
   clear:
     for (int i = 0; i < 256; ++i) {
-#pragma HLS PIPELINE II=1
+#pragma HLS PIPELINE II = 1
       bins[i] = 0;
     }
     cleared = true;
@@ -23,7 +23,7 @@ void histogram(hls::stream<byte_t>& in, hls::stream<count_t>& out) {
   bool last = false;
 count:
   while (!last) {
-#pragma HLS PIPELINE II=1
+#pragma HLS PIPELINE II = 1
     const byte_t beat = in.read();
     bins[beat.data] = bins[beat.data] + 1;
     last = beat.last;
@@ -31,7 +31,7 @@ count:
 
 dump:
   for (int i = 0; i < 256; ++i) {
-#pragma HLS PIPELINE II=1
+#pragma HLS PIPELINE II = 1
     out.write(bins[i]);
     bins[i] = 0;
   }

@@ -41,12 +41,12 @@ void insertion_sort(hls::stream<entry_t>& unsorted, hls::stream<entry_t>& sorted
   chain.clear();
 fill:
   for (int i = 0; i < GROUP; i++) {
-#pragma HLS PIPELINE II=1
+#pragma HLS PIPELINE II = 1
     chain.insert(unsorted.read());
   }
 drain:
   for (int i = 0; i < GROUP; i++) {
-#pragma HLS PIPELINE II=1
+#pragma HLS PIPELINE II = 1
     sorted.write(chain.take());
   }
 }

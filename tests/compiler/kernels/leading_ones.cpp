@@ -3,12 +3,12 @@
 #include "ap_int.h"
 #include "hls_stream.h"
 
-void leading_ones(hls::stream<ap_uint<8> >& words, hls::stream<ap_uint<4> >& positions, unsigned char count) {
-#pragma HLS INTERFACE axis port=words
-#pragma HLS INTERFACE axis port=positions
-#pragma HLS INTERFACE s_axilite port=count
+void leading_ones(hls::stream<ap_uint<8>>& words, hls::stream<ap_uint<4>>& positions, unsigned char count) {
+#pragma HLS INTERFACE axis port = words
+#pragma HLS INTERFACE axis port = positions
+#pragma HLS INTERFACE s_axilite port = count
   for (int i = 0; i < count; i++) {
-#pragma HLS PIPELINE II=1
+#pragma HLS PIPELINE II = 1
     const ap_uint<8> word = words.read();
     ap_uint<4> position = 8;
     for (int bit = 7; bit >= 0; bit--) {

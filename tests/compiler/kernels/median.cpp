@@ -16,35 +16,47 @@ static void order(pixel_t& a, pixel_t& b) {
 
 static pixel_t median_of_nine(pixel_t v[9]) {
 #pragma HLS INLINE
-  order(v[1], v[2]); order(v[4], v[5]); order(v[7], v[8]);
-  order(v[0], v[1]); order(v[3], v[4]); order(v[6], v[7]);
-  order(v[1], v[2]); order(v[4], v[5]); order(v[7], v[8]);
-  order(v[0], v[3]); order(v[5], v[8]); order(v[4], v[7]);
-  order(v[3], v[6]); order(v[1], v[4]); order(v[2], v[5]);
-  order(v[4], v[7]); order(v[4], v[2]); order(v[6], v[4]);
+  order(v[1], v[2]);
+  order(v[4], v[5]);
+  order(v[7], v[8]);
+  order(v[0], v[1]);
+  order(v[3], v[4]);
+  order(v[6], v[7]);
+  order(v[1], v[2]);
+  order(v[4], v[5]);
+  order(v[7], v[8]);
+  order(v[0], v[3]);
+  order(v[5], v[8]);
+  order(v[4], v[7]);
+  order(v[3], v[6]);
+  order(v[1], v[4]);
+  order(v[2], v[5]);
+  order(v[4], v[7]);
+  order(v[4], v[2]);
+  order(v[6], v[4]);
   order(v[4], v[2]);
   return v[4];
 }
 
 void median(hls::stream<pixel_t>& in, hls::stream<pixel_t>& out, ap_uint<7> width, ap_uint<7> height) {
-#pragma HLS INTERFACE axis port=in
-#pragma HLS INTERFACE axis port=out
-#pragma HLS INTERFACE s_axilite port=width
-#pragma HLS INTERFACE s_axilite port=height
+#pragma HLS INTERFACE axis port = in
+#pragma HLS INTERFACE axis port = out
+#pragma HLS INTERFACE s_axilite port = width
+#pragma HLS INTERFACE s_axilite port = height
   static pixel_t lines[2][max_width];
-#pragma HLS ARRAY_PARTITION variable=lines complete dim=1
+#pragma HLS ARRAY_PARTITION variable = lines complete dim = 1
   pixel_t window[3][3];
-#pragma HLS ARRAY_PARTITION variable=window complete dim=0
+#pragma HLS ARRAY_PARTITION variable = window complete dim = 0
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) window[i][j] = 0;
 
 rows:
   for (ap_uint<8> row = 0; row < height + 1; ++row) {
-#pragma HLS LOOP_TRIPCOUNT min=1 max=65
+#pragma HLS LOOP_TRIPCOUNT min = 1 max = 65
   columns:
     for (ap_uint<8> column = 0; column < width + 1; ++column) {
-#pragma HLS LOOP_TRIPCOUNT min=1 max=65
-#pragma HLS PIPELINE II=1
+#pragma HLS LOOP_TRIPCOUNT min = 1 max = 65
+#pragma HLS PIPELINE II = 1
       pixel_t newest[3];
       for (int i = 0; i < 3; ++i) newest[i] = window[i][2];  // one past the right end: repeat
       if (column < width) {

@@ -10,15 +10,15 @@ struct extreme_t {
   ap_uint<10> position;
 };
 
-void min_max(hls::stream<value_t>& in, hls::stream<extreme_t>& minimum, hls::stream<extreme_t>& maximum, ap_uint<10> length,
-             ap_int<24>& total, bool& any_negative) {
-#pragma HLS INTERFACE axis port=in
-#pragma HLS INTERFACE axis port=minimum
-#pragma HLS INTERFACE axis port=maximum
-#pragma HLS INTERFACE s_axilite port=length
-#pragma HLS INTERFACE s_axilite port=total
-#pragma HLS INTERFACE s_axilite port=any_negative
-#pragma HLS INTERFACE s_axilite port=return
+void min_max(hls::stream<value_t>& in, hls::stream<extreme_t>& minimum, hls::stream<extreme_t>& maximum,
+             ap_uint<10> length, ap_int<24>& total, bool& any_negative) {
+#pragma HLS INTERFACE axis port = in
+#pragma HLS INTERFACE axis port = minimum
+#pragma HLS INTERFACE axis port = maximum
+#pragma HLS INTERFACE s_axilite port = length
+#pragma HLS INTERFACE s_axilite port = total
+#pragma HLS INTERFACE s_axilite port = any_negative
+#pragma HLS INTERFACE s_axilite port = return
   extreme_t low = {value_t(8191), 0};
   extreme_t high = {value_t(-8192), 0};
   ap_int<24> sum = 0;

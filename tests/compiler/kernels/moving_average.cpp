@@ -5,11 +5,11 @@
 
 #define N 32
 
-void moving_average(hls::stream<ap_uint<12> >& din, hls::stream<ap_uint<12> >& dout) {
-#pragma HLS INTERFACE ap_ctrl_none port=return
-#pragma HLS INTERFACE axis port=din
-#pragma HLS INTERFACE axis port=dout
-#pragma HLS PIPELINE II=1
+void moving_average(hls::stream<ap_uint<12>>& din, hls::stream<ap_uint<12>>& dout) {
+#pragma HLS INTERFACE ap_ctrl_none port = return
+#pragma HLS INTERFACE axis port = din
+#pragma HLS INTERFACE axis port = dout
+#pragma HLS PIPELINE II = 1
   static ap_uint<12> buffer[N];
   static ap_uint<5> ptr = 0;
   static ap_uint<17> sum = 0;

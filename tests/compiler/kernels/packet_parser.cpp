@@ -20,8 +20,8 @@ struct verdict_t {
   verdict_t(ap_uint<4> k, ap_uint<8> l, bool g) : kind(k), length(l), good(g) {}
 };
 
-void packet_parser(hls::stream<ap_uint<8> >& in, hls::stream<payload_t>& payload, hls::stream<verdict_t>& verdict) {
-#pragma HLS PIPELINE II=1
+void packet_parser(hls::stream<ap_uint<8>>& in, hls::stream<payload_t>& payload, hls::stream<verdict_t>& verdict) {
+#pragma HLS PIPELINE II = 1
   static state_t state = hunting;
   static ap_uint<8> kind = 0;
   static ap_uint<8> length = 0;

@@ -8,8 +8,8 @@ struct sample_t {
   ap_int<10> value;
 };
 
-void peak_hold(hls::stream<sample_t>& samples, hls::stream<ap_int<10> >& peaks) {
-#pragma HLS PIPELINE II=1
+void peak_hold(hls::stream<sample_t>& samples, hls::stream<ap_int<10>>& peaks) {
+#pragma HLS PIPELINE II = 1
   static ap_int<10> peak[64] = {0};
   const sample_t s = samples.read();
   const ap_int<10> before = peak[s.channel];

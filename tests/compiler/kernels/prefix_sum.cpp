@@ -8,11 +8,11 @@ typedef ap_axis<16, 2, 5, 6> in_t;
 typedef ap_axis<32, 2, 5, 6> out_t;
 
 void prefix_sum(hls::stream<in_t>& s, hls::stream<out_t>& m) {
-#pragma HLS INTERFACE mode=axis port=s
-#pragma HLS INTERFACE mode=axis port=m
-#pragma HLS INTERFACE mode=ap_ctrl_none port=return
+#pragma HLS INTERFACE mode = axis port = s
+#pragma HLS INTERFACE mode = axis port = m
+#pragma HLS INTERFACE mode = ap_ctrl_none port = return
   static ap_int<32> sum = 0;
-#pragma HLS RESET variable=sum
+#pragma HLS RESET variable = sum
   in_t a = s.read();
   out_t b;
   b.data = sum + a.data;

@@ -10,8 +10,8 @@ struct summary_t {
   ap_uint<4> low_zeros;  // at most 15
 };
 
-void priority_encoder(hls::stream<ap_uint<16> >& word, hls::stream<summary_t>& summary) {
-#pragma HLS PIPELINE II=1
+void priority_encoder(hls::stream<ap_uint<16>>& word, hls::stream<summary_t>& summary) {
+#pragma HLS PIPELINE II = 1
   const ap_uint<16> w = word.read();
   summary_t s;
   s.leading = 16;

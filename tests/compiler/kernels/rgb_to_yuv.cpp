@@ -32,11 +32,11 @@ static yuv_t convert(const rgb_t& p) {
 }
 
 void rgb_to_yuv(hls::stream<rgb_t>& rgb, hls::stream<yuv_t>& yuv, unsigned short pixels) {
-#pragma HLS INTERFACE axis port=rgb
-#pragma HLS INTERFACE axis port=yuv
-#pragma HLS INTERFACE s_axilite port=pixels
+#pragma HLS INTERFACE axis port = rgb
+#pragma HLS INTERFACE axis port = yuv
+#pragma HLS INTERFACE s_axilite port = pixels
   for (unsigned short i = 0; i < pixels; i++) {
-#pragma HLS PIPELINE II=1
+#pragma HLS PIPELINE II = 1
     yuv.write(convert(rgb.read()));
   }
 }

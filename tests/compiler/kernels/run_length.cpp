@@ -7,16 +7,16 @@ typedef ap_axiu<16, 1, 1, 1> in_pkt;
 typedef ap_axiu<24, 1, 1, 1> out_pkt;
 
 void run_length(hls::stream<in_pkt>& A, hls::stream<out_pkt>& B) {
-#pragma HLS INTERFACE axis port=A
-#pragma HLS INTERFACE axis port=B
-#pragma hls interface s_axilite port=return
+#pragma HLS INTERFACE axis port = A
+#pragma HLS INTERFACE axis port = B
+#pragma hls interface s_axilite port = return
   ap_uint<16> value = 0;
   ap_uint<8> count = 0;
   ap_uint<1> pending = 0;  // the packet has ended, its last pair has not gone out
   bool done = false;
   while (!done) {
-#pragma HLS PIPELINE II=1
-#pragma HLS LOOP_TRIPCOUNT min=2 max=1000
+#pragma HLS PIPELINE II = 1
+#pragma HLS LOOP_TRIPCOUNT min = 2 max = 1000
     bool emit = false;
     bool finish = pending;
     in_pkt tmp;

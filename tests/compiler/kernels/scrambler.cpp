@@ -6,9 +6,9 @@
 typedef ap_uint<66> block_t;
 
 void scrambler(hls::stream<block_t>& plain, hls::stream<block_t>& scrambled) {
-#pragma HLS INTERFACE axis port=plain
-#pragma HLS INTERFACE axis port=scrambled
-#pragma HLS PIPELINE II=1
+#pragma HLS INTERFACE axis port = plain
+#pragma HLS INTERFACE axis port = scrambled
+#pragma HLS PIPELINE II = 1
   static ap_uint<58> state = 0x3FFFFFFFFFFFFFFULL;
   const block_t b = plain.read();
   const ap_uint<64> data = b.range(65, 2);

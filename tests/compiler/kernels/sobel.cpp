@@ -14,22 +14,22 @@ T absolute(T v) {
 }
 
 void sobel(hls::stream<video_t>& src, hls::stream<video_t>& dst, int rows, int cols) {
-#pragma HLS INTERFACE axis register both port=src
-#pragma HLS INTERFACE axis register both port=dst
-#pragma HLS INTERFACE s_axilite port=rows bundle=CONTROL
-#pragma HLS INTERFACE s_axilite port=cols bundle=CONTROL
-#pragma HLS INTERFACE s_axilite port=return bundle=CONTROL
+#pragma HLS INTERFACE axis register both port = src
+#pragma HLS INTERFACE axis register both port = dst
+#pragma HLS INTERFACE s_axilite port = rows bundle = CONTROL
+#pragma HLS INTERFACE s_axilite port = cols bundle = CONTROL
+#pragma HLS INTERFACE s_axilite port = return bundle = CONTROL
   ap_uint<8> line_buf[2][MAX_COLS];
-#pragma HLS ARRAY_PARTITION variable=line_buf complete dim=1
+#pragma HLS ARRAY_PARTITION variable = line_buf complete dim = 1
   ap_uint<8> win[3][3];
-#pragma HLS ARRAY_PARTITION variable=win complete dim=0
+#pragma HLS ARRAY_PARTITION variable = win complete dim = 0
 
   for (int i = 0; i < rows + 1; i++) {
-#pragma HLS LOOP_TRIPCOUNT min=2 max=129
+#pragma HLS LOOP_TRIPCOUNT min = 2 max = 129
     for (int j = 0; j < cols + 1; j++) {
-#pragma HLS LOOP_TRIPCOUNT min=2 max=129
+#pragma HLS LOOP_TRIPCOUNT min = 2 max = 129
 #pragma HLS LOOP_FLATTEN off
-#pragma HLS PIPELINE II=1
+#pragma HLS PIPELINE II = 1
       ap_uint<8> px = 0;
       if (i < rows && j < cols) {
         video_t beat;

@@ -14,14 +14,14 @@ static void butterfly(out_t& a, out_t& b) {
 }
 
 void transform8(hls::stream<in_t>& src, hls::stream<out_t>& dst) {
-#pragma HLS INTERFACE axis port=src
-#pragma HLS INTERFACE axis port=dst
+#pragma HLS INTERFACE axis port = src
+#pragma HLS INTERFACE axis port = dst
   out_t v[8];
-#pragma HLS ARRAY_PARTITION variable=v complete
+#pragma HLS ARRAY_PARTITION variable = v complete
 
 load:
   for (int i = 0; i < 8; ++i) {
-#pragma HLS PIPELINE II=1
+#pragma HLS PIPELINE II = 1
     v[i] = src.read();
   }
 
@@ -33,7 +33,7 @@ load:
 
 store:
   for (int i = 0; i < 8; ++i) {
-#pragma HLS PIPELINE II=1
+#pragma HLS PIPELINE II = 1
     dst.write(v[i]);
   }
 }

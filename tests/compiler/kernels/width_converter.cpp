@@ -7,9 +7,9 @@ typedef ap_axiu<8, 1, 1, 1> narrow_t;
 typedef ap_axiu<32, 1, 1, 1> wide_t;
 
 void width_converter(hls::stream<narrow_t>& in, hls::stream<wide_t>& out) {
-#pragma HLS INTERFACE axis port=in
-#pragma HLS INTERFACE axis port=out
-#pragma HLS INTERFACE ap_ctrl_none port=return
+#pragma HLS INTERFACE axis port = in
+#pragma HLS INTERFACE axis port = out
+#pragma HLS INTERFACE ap_ctrl_none port = return
   bool last = false;
 packet:
   while (!last) {
@@ -17,7 +17,7 @@ packet:
     ap_uint<4> keep = 0;
   lanes:
     for (int lane = 0; lane < 4; lane++) {
-#pragma HLS PIPELINE II=1
+#pragma HLS PIPELINE II = 1
       if (!last) {
         narrow_t n = in.read();
         word.range(8 * lane + 7, 8 * lane) = n.data;

@@ -6,11 +6,11 @@
 typedef ap_uint<10> pixel_t;
 
 void zoom(hls::stream<pixel_t>& in, hls::stream<pixel_t>& out, ap_uint<6> width, ap_uint<6> height, ap_uint<3> factor) {
-#pragma HLS INTERFACE axis port=in
-#pragma HLS INTERFACE axis port=out
-#pragma HLS INTERFACE s_axilite port=width
-#pragma HLS INTERFACE s_axilite port=height
-#pragma HLS INTERFACE s_axilite port=factor
+#pragma HLS INTERFACE axis port = in
+#pragma HLS INTERFACE axis port = out
+#pragma HLS INTERFACE s_axilite port = width
+#pragma HLS INTERFACE s_axilite port = height
+#pragma HLS INTERFACE s_axilite port = factor
   pixel_t line[64];
   pixel_t current = 0;
 Rows:
@@ -21,7 +21,7 @@ Rows:
       for (ap_uint<6> x = 0; x < width; x++) {
       RepeatPixel:
         for (ap_uint<3> k = 0; k < factor; k++) {
-#pragma HLS PIPELINE II=1
+#pragma HLS PIPELINE II = 1
           if (k == 0) {
             if (repeat == 0) {
               current = in.read();

@@ -3,7 +3,8 @@
 #include "hls_stream.h"
 
 static unsigned square(unsigned x) { return x * x; }
-static const unsigned squares[8] = {square(0), square(1), square(2), square(3), square(4), square(5), square(6), square(7)};
+static const unsigned squares[8] = {square(0), square(1), square(2), square(3),
+                                    square(4), square(5), square(6), square(7)};
 
 struct ramp_t {
   short words[32];

@@ -1,9 +1,10 @@
-// Whether a word is written depends on another word of the same RAM; what is written does not. Was refused at every period.
+// Whether a word is written depends on another word of the same RAM; what is written does not. Was refused at every
+// period.
 #include "ap_int.h"
 #include "hls_stream.h"
 
 void ram_write_condition(hls::stream<ap_uint<12>>& in, hls::stream<ap_uint<6>>& out) {
-#pragma HLS PIPELINE II=1
+#pragma HLS PIPELINE II = 1
   static ap_uint<6> ram[64] = {0};
   const ap_uint<12> x = in.read();
   const ap_uint<6> word = ram[x.range(5, 0)];
