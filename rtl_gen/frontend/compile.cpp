@@ -142,7 +142,7 @@ compiled_source compile(const source_options& options, llvm::LLVMContext& contex
                                      "-fno-threadsafe-statics"};
   std::vector<std::string> preprocess = common;
   preprocess.insert(preprocess.end(), {"-E", wrapper, "-o", preprocessed, "-I", EPILINE_TYPES_DIRECTORY, "-I",
-                                       EPILINE_FRONTEND_INCLUDES});
+                                       EPILINE_FRONTEND_INCLUDES, "-I", EPILINE_TYPES_DIRECTORY "/.."});
   for (const std::string& path : options.includes) preprocess.insert(preprocess.end(), {"-I", path});
   for (const std::string& definition : options.definitions) preprocess.push_back("-D" + definition);
   if (!run_clang(preprocess, messages)) refuse_compilation(options, read_file(messages));
