@@ -14,6 +14,19 @@ namespace {
 
 constexpr std::size_t largest_copy = 8192;  // scalars moved in one clock
 
+/// Where the last member of a struct ends that is not padding: assignments copy that much.
+std::uint64_t end_of_members(llvm::StructType& structure, const llvm::DataLayout& layout) {
+  if (structure.getNumElements() == 0) return 0;
+  const unsigned last = structure.getNumElements() - 1;
+  const std::uint64_t begin = layout.getStructLayout(&structure)->getElementOffset(last);
+  // Packed structs have their padding written out.
+  auto* bytes = llvm::dyn_cast<llvm::ArrayType>(structure.getElementType(last));
+  if (structure.isPacked() && bytes != nullptr && bytes->getElementType()->isIntegerTy(8) &&
+      bytes->getNumElements() < 16)
+    return begin;
+  return begin + layout.getTypeStoreSize(structure.getElementType(last));
+}
+
 /// The first type of `bytes` bytes found by descending into first members, or null.
 llvm::Type* descend_to_size(llvm::Type* type, std::uint64_t bytes, const llvm::DataLayout& layout) {
   while (type->isSized() && layout.getTypeAllocSize(type) > bytes) {
@@ -25,6 +38,7 @@ llvm::Type* descend_to_size(llvm::Type* type, std::uint64_t bytes, const llvm::D
       type = array->getElementType();
     } else if (auto* structure = llvm::dyn_cast<llvm::StructType>(type);
                structure != nullptr && structure->getNumElements() > 0) {
+      if (end_of_members(*structure, layout) == bytes) return type;
       type = structure->getElementType(0);
     } else {
       return nullptr;
