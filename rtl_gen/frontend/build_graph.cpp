@@ -501,7 +501,6 @@ class graph_builder {
 
   node_id node_of(const Instruction& instruction) {
     if (const auto found = nodes_.find(&instruction); found != nodes_.end()) return found->second;
-    // Deep expressions would overflow the call stack: operands of the same block first.
     const node_id made = translate(instruction);
     nodes_[&instruction] = made;
     if (dataflow::node& n = graph_.nodes[made]; n.kind != operation::constant && n.kind != operation::register_value) {
@@ -913,7 +912,8 @@ class graph_builder {
 
   void build_registers() {
     std::vector<std::vector<update>> updates(graph_.registers.size());
-    for (const auto& [along, cut] : ending_edges())
+    const std::vector<std::pair<edge, unsigned>> ends = ending_edges();
+    for (const auto& [along, cut] : ends)
       for (const Instruction* value : ordered_live_[cut]) {
         const dataflow::register_id target = register_of_.at(value);
         const Value* incoming = value;
@@ -923,7 +923,7 @@ class graph_builder {
       }
     for (const auto& [cut, target] : state_registers_) {
       node_id entered = bit(false);
-      for (const auto& [along, to] : ending_edges())
+      for (const auto& [along, to] : ends)
         if (to == cut) entered = either(entered, edge_predicate(along));
       updates[target].push_back({entered, bit(true), false});
     }

@@ -111,19 +111,9 @@ std::string replacement(const pragma_line& pragma, const source_place& place, st
   }
   // What these ask for is what this flow always does (everything is inlined and pipelined, trees are balanced, loop
   // nests are flattened), or they only inform.
-  static const char* const natural[] = {"inline",
-                                        "loop_tripcount",
-                                        "loop_flatten",
-                                        "expression_balance",
-                                        "latency",
-                                        "aggregate",
-                                        "disaggregate",
-                                        "data_pack",
-                                        "reset",
-                                        "top",
-                                        "protocol",
-                                        "performance",
-                                        "array_reshape_none"};
+  static const char* const natural[] = {
+      "inline",    "loop_tripcount", "loop_flatten", "expression_balance", "latency",    "aggregate", "disaggregate",
+      "data_pack", "reset",          "top",          "protocol",           "performance"};
   for (const char* name : natural)
     if (pragma.name == name) return "";
   static const char* const advisory[] = {"bind_storage",         "bind_op",       "resource",
