@@ -6,6 +6,7 @@
 #include <llvm/IR/IntrinsicInst.h>
 #include <llvm/IR/Module.h>
 
+#include "frontend/payload.hpp"
 #include "frontend/source.hpp"
 
 namespace epiline::frontend {
@@ -16,15 +17,11 @@ constexpr std::size_t largest_copy = 8192;  // scalars moved in one clock
 
 /// Where the last member of a struct ends that is not padding: assignments copy that much.
 std::uint64_t end_of_members(llvm::StructType& structure, const llvm::DataLayout& layout) {
-  if (structure.getNumElements() == 0) return 0;
-  const unsigned last = structure.getNumElements() - 1;
-  const std::uint64_t begin = layout.getStructLayout(&structure)->getElementOffset(last);
-  // Packed structs have their padding written out.
-  auto* bytes = llvm::dyn_cast<llvm::ArrayType>(structure.getElementType(last));
-  if (structure.isPacked() && bytes != nullptr && bytes->getElementType()->isIntegerTy(8) &&
-      bytes->getNumElements() < 16)
-    return begin;
-  return begin + layout.getTypeStoreSize(structure.getElementType(last));
+  unsigned count = structure.getNumElements();
+  while (count > 0 && is_padding(structure, count - 1, layout)) --count;
+  if (count == 0) return 0;
+  return layout.getStructLayout(&structure)->getElementOffset(count - 1) +
+         layout.getTypeStoreSize(structure.getElementType(count - 1));
 }
 
 /// The first type of `bytes` bytes found by descending into first members, or null.
@@ -38,7 +35,8 @@ llvm::Type* descend_to_size(llvm::Type* type, std::uint64_t bytes, const llvm::D
       type = array->getElementType();
     } else if (auto* structure = llvm::dyn_cast<llvm::StructType>(type);
                structure != nullptr && structure->getNumElements() > 0) {
-      if (end_of_members(*structure, layout) == bytes) return type;
+      // A struct without a name holds the registers a value returns in: the members are those of the other side.
+      if (!structure->isLiteral() && end_of_members(*structure, layout) == bytes) return type;
       type = structure->getElementType(0);
     } else {
       return nullptr;

@@ -18,25 +18,6 @@ unsigned tag_of(llvm::Type* type, unsigned element_bits) {
   return static_cast<unsigned>(inner->getNumElements());
 }
 
-/// clang writes the gaps of a struct that mixes C integers with ap types as explicit byte arrays.
-bool is_padding(const llvm::StructType& structure, unsigned index, const llvm::DataLayout& layout) {
-  auto* bytes = llvm::dyn_cast<llvm::ArrayType>(structure.getElementType(index));
-  if (!structure.isPacked() || bytes == nullptr || !bytes->getElementType()->isIntegerTy(8) ||
-      bytes->getNumElements() > 15)
-    return false;
-  const llvm::StructLayout& offsets = *layout.getStructLayout(const_cast<llvm::StructType*>(&structure));
-  const std::uint64_t begin = offsets.getElementOffset(index);
-  std::uint64_t alignment = 1;
-  if (index + 1 < structure.getNumElements()) {
-    alignment = layout.getABITypeAlign(structure.getElementType(index + 1)).value();
-  } else {
-    for (llvm::Type* member : structure.elements())
-      alignment = std::max(alignment, layout.getABITypeAlign(member).value());
-  }
-  return begin % alignment != 0 && (begin + bytes->getNumElements()) % alignment == 0 &&
-         bytes->getNumElements() < alignment;
-}
-
 struct collector {
   const source_place& place;
   const llvm::DataLayout& layout;
@@ -92,6 +73,24 @@ llvm::Value* address_of(llvm::IRBuilderBase& builder, llvm::Value* pointer, llvm
 }
 
 }  // namespace
+
+bool is_padding(const llvm::StructType& structure, unsigned index, const llvm::DataLayout& layout) {
+  auto* bytes = llvm::dyn_cast<llvm::ArrayType>(structure.getElementType(index));
+  if (!structure.isPacked() || bytes == nullptr || !bytes->getElementType()->isIntegerTy(8) ||
+      bytes->getNumElements() > 15)
+    return false;
+  const llvm::StructLayout& offsets = *layout.getStructLayout(const_cast<llvm::StructType*>(&structure));
+  const std::uint64_t begin = offsets.getElementOffset(index);
+  std::uint64_t alignment = 1;
+  if (index + 1 < structure.getNumElements()) {
+    alignment = layout.getABITypeAlign(structure.getElementType(index + 1)).value();
+  } else {
+    for (llvm::Type* member : structure.elements())
+      alignment = std::max(alignment, layout.getABITypeAlign(member).value());
+  }
+  return begin % alignment != 0 && (begin + bytes->getNumElements()) % alignment == 0 &&
+         bytes->getNumElements() < alignment;
+}
 
 bool is_arbitrary_precision(llvm::Type* type, unsigned& width, bool& is_signed) {
   auto* structure = llvm::dyn_cast<llvm::StructType>(type);

@@ -25,6 +25,10 @@ struct leaf {
 /// Returns whether `type` has it, and then the width and sign.
 bool is_arbitrary_precision(llvm::Type* type, unsigned& width, bool& is_signed);
 
+/// Whether element `index` fills a gap: clang writes the gaps of a struct that mixes C integers with ap types as
+/// explicit byte arrays.
+[[nodiscard]] bool is_padding(const llvm::StructType& structure, unsigned index, const llvm::DataLayout& layout);
+
 /// The leaves of a payload type in order. Refuses (at `place`) floating point, pointers and other foreign types.
 [[nodiscard]] std::vector<leaf> leaves_of(llvm::Type* type, const llvm::DataLayout& layout, const source_place& place);
 
