@@ -50,9 +50,69 @@ std::vector<key> keys_of(const graph& g) {
   return keys;
 }
 
+/// LUT levels, in tenths, between a node and the clock edge its value comes from at the earliest: a rough measure, for
+/// differences of several clocks.
+std::vector<unsigned> depths_of(const graph& g) {
+  std::vector<unsigned> depths(g.nodes.size(), 0);
+  for (node_id id = 0; id < g.nodes.size(); ++id) {
+    const node& n = g.nodes[id];
+    for (const node_id operand : n.operands) depths[id] = std::max(depths[id], depths[operand]);
+    switch (n.kind) {
+      case operation::add:
+      case operation::subtract:
+      case operation::equal:
+      case operation::less_unsigned:
+      case operation::less_signed:
+      case operation::memory_read:
+        depths[id] += 20;
+        break;
+      case operation::multiply:
+        depths[id] += 50;
+        break;
+      case operation::select:
+      case operation::table:
+      case operation::shift_left:
+      case operation::shift_right_logical:
+      case operation::shift_right_arithmetic:
+        depths[id] += 10;
+        break;
+      case operation::bit_and:
+      case operation::bit_or:
+      case operation::bit_xor:
+        depths[id] += 4;
+        break;
+      default:
+        break;
+    }
+  }
+  return depths;
+}
+
+/// A word is written when its last bit is there. Data that would have to wait this much longer for its neighbours, some
+/// two clocks, is better off in a memory of its own.
+constexpr unsigned worth_a_memory = 80;
+
+/// Splits memories of equal keys where their data comes much later than the others': keys get a number of the part.
+void split_by_arrival(const graph& g, std::vector<key>& keys) {
+  const std::vector<unsigned> depths = depths_of(g);
+  std::map<key, std::vector<std::pair<unsigned, memory_id>>> arrivals;
+  for (const node& n : g.nodes)
+    if (n.kind == operation::memory_write && !keys[n.object].empty())
+      arrivals[keys[n.object]].emplace_back(depths[n.operands[1]], n.object);
+  for (auto& [together, members] : arrivals) {
+    std::sort(members.begin(), members.end());
+    std::uint64_t part = 0;
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      if (i > 0 && members[i].first - members[i - 1].first >= worth_a_memory) ++part;
+      keys[members[i].second].push_back(part);
+    }
+  }
+}
+
 /// Sorts the memories into groups; a group ends where its words would become too wide.
 std::vector<group> groups_of(const graph& g) {
-  const std::vector<key> keys = keys_of(g);
+  std::vector<key> keys = keys_of(g);
+  split_by_arrival(g, keys);
   std::map<key, std::size_t> open;  // last group of each key
   std::map<std::size_t, unsigned> widths;
   std::vector<group> groups;

@@ -114,9 +114,10 @@ small_graph two_memories(const std::string& different) {
   const node_id x = s.make(op::memory_read, 8, {ra, one}, low);
   const node_id y = s.make(op::memory_read, 12, {different == "read address" ? other : ra, one}, high);
   s.make(op::memory_write, 0, {wa, s.make(op::slice, 8, {data}), one}, low);
-  s.make(op::memory_write, 0,
-         {different == "write address" ? other : wa, s.make(op::slice, 12, {data}, none, 8),
-          different == "enable" ? bit : one},
+  node_id word = s.make(op::slice, 12, {data}, none, 8);
+  if (different == "arrival")
+    for (unsigned sum = 0; sum < 5; ++sum) word = s.make(op::add, 12, {word, s.make(op::slice, 12, {data}, none, sum)});
+  s.make(op::memory_write, 0, {different == "write address" ? other : wa, word, different == "enable" ? bit : one},
          high);
   s.write("out", s.make(op::concat, 20, {y, x}));
   return s;
@@ -133,7 +134,7 @@ TEST(pack_memories, equal_accesses_make_one_wide_memory) {
 }
 
 TEST(pack_memories, unequal_accesses_stay_apart) {
-  for (const char* different : {"read address", "write address", "enable", "contents", "distance"}) {
+  for (const char* different : {"read address", "write address", "enable", "contents", "distance", "arrival"}) {
     SCOPED_TRACE(different);
     graph g = two_memories(different).g;
     pack_memories(g);
