@@ -117,6 +117,7 @@ struct field {
   std::string signal;
   unsigned width = 1;
   unsigned offset = 0;
+  bool is_signed = false;  // the source's type, for people and software; the logic's signs are in its operations
 };
 
 enum class port_kind : std::uint8_t {

@@ -107,7 +107,8 @@ class printer {
       if (value == p.kind) kind = word;
     put("{} {} {} {}", p.input ? "input" : "output", kind, quoted(p.name), p.width);
     end_line(p.where);
-    for (const field& f : p.fields) put("  field {} {} {}\n", quoted(f.name), quoted(f.signal), f.width);
+    for (const field& f : p.fields)
+      put("  field {} {} {}{}\n", quoted(f.name), quoted(f.signal), f.width, f.is_signed ? " signed" : "");
   }
 
   void print_register(const register_state& r) {
@@ -373,6 +374,7 @@ class parser {
     f.signal = line.need_string("the signal's name in quotes");
     f.width = line.need_width();
     f.offset = next_offset_;
+    f.is_signed = line.take("signed");
     line.need_end();
     next_offset_ += f.width;
     if (next_offset_ > max_width)

@@ -4,7 +4,7 @@
 //   graph "sum"
 //   file "sum.cpp"
 //   input stream "in" 9 @0:3
-//     field "value" "tdata" 8
+//     field "value" "tdata" 8                                  ; `signed` may follow
 //     field "last" "tlast" 1
 //   output result "total" 16
 //     field "total" "tdata" 16

@@ -214,7 +214,9 @@ class port_lowering {
       const std::string name = parameter_name(index_of(call));
       const std::vector<leaf> leaves = leaves_of(type, layout(), top_.place);
       arguments_.push_back({&call, type, leaves, result_.ports[call_port_].width});
-      result_.ports[call_port_].fields.push_back({name, name, width_of(leaves), result_.ports[call_port_].width});
+      const bool is_signed = leaves.size() == 1 && leaves[0].is_signed;
+      result_.ports[call_port_].fields.push_back(
+          {name, name, width_of(leaves), result_.ports[call_port_].width, is_signed});
       result_.ports[call_port_].width += width_of(leaves);
       finished_.push_back(&call);
     } else if (name_of(call) == "__epiline_result") {

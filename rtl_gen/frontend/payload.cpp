@@ -122,7 +122,11 @@ std::vector<dataflow::field> fields_of(const std::vector<leaf>& leaves) {
   unsigned offset = 0;
   for (const leaf& member : leaves) {
     const std::string signal = axis_signals.at(member.axis_field);
-    if (fields.empty() || fields.back().signal != signal) fields.push_back({signal.substr(1), signal, 0, offset});
+    if (fields.empty() || fields.back().signal != signal) {
+      fields.push_back({signal.substr(1), signal, 0, offset, member.is_signed});
+    } else {
+      fields.back().is_signed = false;  // several numbers have no common sign
+    }
     fields.back().width += member.width;
     offset += member.width;
   }

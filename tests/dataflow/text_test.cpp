@@ -26,7 +26,8 @@ void expect_same(const graph& a, const graph& b) {
     ASSERT_EQ(p.fields.size(), q.fields.size());
     for (std::size_t f = 0; f < p.fields.size(); ++f) {
       const field &x = p.fields[f], &y = q.fields[f];
-      EXPECT_EQ(std::tie(x.name, x.signal, x.width, x.offset), std::tie(y.name, y.signal, y.width, y.offset));
+      EXPECT_EQ(std::tie(x.name, x.signal, x.width, x.offset, x.is_signed),
+                std::tie(y.name, y.signal, y.width, y.offset, y.is_signed));
     }
   }
   ASSERT_EQ(a.registers.size(), b.registers.size());
@@ -84,7 +85,7 @@ TEST(text, prints_what_the_header_describes) {
       "graph \"sum\"\n"
       "file \"sum.cpp\"\n"
       "input stream \"in\" 9 @0:3\n"
-      "  field \"value\" \"tdata\" 8\n"
+      "  field \"value\" \"tdata\" 8 signed\n"
       "  field \"last\" \"tlast\" 1\n"
       "output result \"total\" 16\n"
       "  field \"total\" \"tdata\" 16\n"
@@ -104,6 +105,8 @@ TEST(text, prints_what_the_header_describes) {
       "patient %0\n";
   const graph g = parse(text);
   EXPECT_EQ(print(g), text);
+  EXPECT_TRUE(g.ports[0].fields[0].is_signed);
+  EXPECT_FALSE(g.ports[0].fields[1].is_signed);
   EXPECT_EQ(g.ports[0].fields[1].offset, 8u);
   EXPECT_EQ(g.memories[0].initial[3], APInt(16, 0xffff));
   EXPECT_TRUE(g.registers[0].patient);

@@ -22,6 +22,17 @@ struct parameter_type_tag {
   static T object;
 };
 
+// What a scalar's token looks like. LLVM's integers have no sign: C's signed ones travel under the name of the vendor
+// type of their width.
+template <class T, bool = __is_integral(T) && __is_signed(T)>
+struct scalar_token {
+  using type = T;
+};
+template <class T>
+struct scalar_token<T, true> {
+  using type = ap_int<8 * sizeof(T)>;
+};
+
 template <int Index, class Stream>
 struct stream_port {
   static Stream object;
@@ -30,7 +41,7 @@ struct stream_port {
 template <class T, int Index>
 struct parameter {  // by value
   T value;
-  parameter() { __epiline_argument(Index, &value, &parameter_type_tag<T>::object); }
+  parameter() { __epiline_argument(Index, &value, &parameter_type_tag<typename scalar_token<T>::type>::object); }
   T& pass() { return value; }
   void finish() const {}
 };
@@ -52,7 +63,7 @@ struct parameter<T&, Index> {  // a result
   T value;
   parameter() {}
   T& pass() { return value; }
-  void finish() const { __epiline_result(Index, &value, &parameter_type_tag<T>::object); }
+  void finish() const { __epiline_result(Index, &value, &parameter_type_tag<typename scalar_token<T>::type>::object); }
 };
 
 template <int Index>
