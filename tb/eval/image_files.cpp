@@ -17,6 +17,8 @@
 #include <opencv2/imgproc.hpp>
 #include <system_error>
 
+#include "eval/indexed_png.hpp"
+
 namespace epiline::eval {
 namespace {
 
@@ -306,21 +308,29 @@ std::string encode_map(const disparity_map& map, const fs::path& path) {
   return extension == ".png" ? png_of(map) : pgm_of(map);
 }
 
-std::string picture_of(const disparity_map& map, int levels) {
-  cv::Mat grey(map.height, map.width, CV_8UC1);
-  cv::Mat undefined(map.height, map.width, CV_8UC1);
-  const int highest = std::max(levels - 1, 1);
-  for (int y = 0; y < map.height; ++y) {
-    for (int x = 0; x < map.width; ++x) {
-      const std::size_t i = map.index(x, y);
-      grey.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(std::min(255 * map.disparity[i] / highest, 255));
-      undefined.at<std::uint8_t>(y, x) = map.defined[i] != 0 ? 0 : 255;
-    }
+real_map real_values_of(const disparity_map& map) {
+  real_map values{map.width, map.height, std::vector<double>(map.disparity.begin(), map.disparity.end())};
+  for (std::size_t i = 0; i < map.defined.size(); ++i) {
+    if (map.defined[i] == 0) values.values[i] = std::numeric_limits<double>::quiet_NaN();
   }
-  cv::Mat colours;
-  cv::applyColorMap(grey, colours, cv::COLORMAP_TURBO);
-  colours.setTo(cv::Scalar(0, 0, 0), undefined);
-  return encode_png(colours);
+  return values;
 }
+
+std::string picture_of(const real_map& map, int levels) {
+  // 255 colours of the map, and black: a palette makes the file a third of what three bytes a pixel take.
+  constexpr std::uint8_t undefined = 255;
+  const double highest = std::max(levels - 1, 1);
+  indexed_picture picture{map.width, map.height, disparity_colours(undefined), {}};
+  picture.colours.push_back({0, 0, 0});
+  picture.pixels.reserve(map.values.size());
+  for (const double value : map.values) {
+    picture.pixels.push_back(std::isfinite(value) ? static_cast<std::uint8_t>(std::lround(
+                                                        (undefined - 1) * std::clamp(value / highest, 0.0, 1.0)))
+                                                  : undefined);
+  }
+  return png_of(picture);
+}
+
+std::string picture_of(const disparity_map& map, int levels) { return picture_of(real_values_of(map), levels); }
 
 }  // namespace epiline::eval

@@ -14,7 +14,7 @@
 
 namespace epiline::eval {
 
-/// A real number a pixel in raster order, NaN = unknown.
+/// A real number a pixel in raster order, NaN = unknown or undefined.
 struct real_map {
   int width = 0;
   int height = 0;
@@ -27,6 +27,9 @@ struct pixel_mask {
   int height = 0;
   std::vector<bool> selected;
 };
+
+/// The map's disparities, NaN where it is undefined.
+[[nodiscard]] real_map real_values_of(const disparity_map& map);
 
 /// Any 8-bit picture OpenCV reads; grey is taken as R = G = B, transparency is dropped. 16-bit and floating-point
 /// pictures are refused.
@@ -60,7 +63,8 @@ void require_map_extension(const std::filesystem::path& path);
 /// The bytes of a file of that name: .pfm, .png or .pgm, as above.
 [[nodiscard]] std::string encode_map(const disparity_map& map, const std::filesystem::path& path);
 
-/// A colour picture for people, as PNG: blue is far, red is levels - 1, undefined pixels are black.
+/// A colour picture for people, as PNG: blue is far, red is levels - 1 and beyond, undefined pixels are black.
+[[nodiscard]] std::string picture_of(const real_map& map, int levels);
 [[nodiscard]] std::string picture_of(const disparity_map& map, int levels);
 
 }  // namespace epiline::eval

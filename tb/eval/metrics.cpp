@@ -12,15 +12,16 @@ double share(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
-void require_size(std::string_view what, int width, int height, const disparity_map& map) {
+template <class Map>
+void require_size(std::string_view what, int width, int height, const Map& map) {
   if (width == map.width && height == map.height) return;
   throw std::invalid_argument(
       fmt::format("{} is {}x{}, but the disparity map is {}x{}", what, width, height, map.width, map.height));
 }
 
-void count(accuracy_counts& counts, bool defined, int disparity, double truth) {
+void count(accuracy_counts& counts, double disparity, double truth) {
   ++counts.known;
-  if (!defined) return;
+  if (!std::isfinite(disparity)) return;
   ++counts.defined;
   const double error = std::abs(disparity - truth);
   counts.error_sum += error;
@@ -42,29 +43,41 @@ double accuracy_counts::average_error() const { return defined == 0 ? 0 : error_
 
 double map_figures::coverage() const { return share(defined, pixels); }
 
-map_figures measure(const disparity_map& map, const ground_truth* truth) {
+map_figures measure(const real_map& map, const ground_truth* truth) {
   map_figures figures;
-  figures.pixels = map.defined.size();
-  for (const auto defined : map.defined) figures.defined += defined;
+  figures.pixels = map.values.size();
+  for (const double disparity : map.values) figures.defined += std::isfinite(disparity) ? 1 : 0;
   if (truth == nullptr) return figures;
 
   require_size("the ground truth", truth->disparity.width, truth->disparity.height, map);
   if (truth->evaluated) require_size("the mask", truth->evaluated->width, truth->evaluated->height, map);
-  if (truth->non_occluded) {
-    require_size("the mask of non-occluded pixels", truth->non_occluded->width, truth->non_occluded->height, map);
-    figures.non_occluded.emplace();
+  struct region {
+    std::string_view name;
+    const std::optional<pixel_mask>& mask;
+    std::optional<accuracy_counts>& counts;
+  };
+  const region regions[] = {
+      {"the mask of non-occluded pixels", truth->non_occluded, figures.non_occluded},
+      {"the mask of pixels near discontinuities", truth->near_discontinuity, figures.near_discontinuity},
+  };
+  for (const auto& [name, mask, counts] : regions) {
+    if (!mask) continue;
+    require_size(name, mask->width, mask->height, map);
+    counts.emplace();
   }
   figures.all.emplace();
-  for (std::size_t i = 0; i < map.defined.size(); ++i) {
+  for (std::size_t i = 0; i < map.values.size(); ++i) {
     const double expected = truth->disparity.values[i];
     if (!std::isfinite(expected) || (truth->evaluated && !truth->evaluated->selected[i])) continue;
-    count(*figures.all, map.defined[i] != 0, map.disparity[i], expected);
-    if (truth->non_occluded && truth->non_occluded->selected[i]) {
-      count(*figures.non_occluded, map.defined[i] != 0, map.disparity[i], expected);
+    count(*figures.all, map.values[i], expected);
+    for (const auto& [name, mask, counts] : regions) {
+      if (mask && mask->selected[i]) count(*counts, map.values[i], expected);
     }
   }
   return figures;
 }
+
+map_figures measure(const disparity_map& map, const ground_truth* truth) { return measure(real_values_of(map), truth); }
 
 map_difference compare(const disparity_map& a, const disparity_map& b) {
   require_size("the other map", b.width, b.height, a);

@@ -30,23 +30,27 @@ struct accuracy_counts {
 };
 
 struct map_figures {
-  std::uint64_t pixels = 0;                     // of the whole map
-  std::uint64_t defined = 0;                    // of the whole map
-  std::optional<accuracy_counts> all;           // with truth
-  std::optional<accuracy_counts> non_occluded;  // with truth and a mask of non-occluded pixels
+  std::uint64_t pixels = 0;                           // of the whole map
+  std::uint64_t defined = 0;                          // of the whole map
+  std::optional<accuracy_counts> all;                 // with truth
+  std::optional<accuracy_counts> non_occluded;        // with truth and a mask of non-occluded pixels
+  std::optional<accuracy_counts> near_discontinuity;  // with truth and a mask of pixels near depth discontinuities
 
   /// defined / pixels in per cent.
   [[nodiscard]] double coverage() const;
 };
 
-/// What the map is compared with; `evaluated` and `non_occluded` restrict the pixels that count.
+/// What the map is compared with; the masks restrict the pixels that count.
 struct ground_truth {
   real_map disparity;
   std::optional<pixel_mask> evaluated;
-  std::optional<pixel_mask> non_occluded;  // applied on top of `evaluated`
+  std::optional<pixel_mask> non_occluded;          // applied on top of `evaluated`
+  std::optional<pixel_mask> near_discontinuity{};  // applied on top of `evaluated`
 };
 
+/// Compares a map of real disparities (NaN = undefined) with the truth; without one only coverage is known.
 /// Throws std::invalid_argument when the truth or a mask has another size than the map.
+[[nodiscard]] map_figures measure(const real_map& map, const ground_truth* truth);
 [[nodiscard]] map_figures measure(const disparity_map& map, const ground_truth* truth);
 
 /// How two maps differ: bit for bit, valid bit included.

@@ -21,6 +21,7 @@ struct real_pair {
   eval::rgb_image left;
   eval::rgb_image right;
   eval::ground_truth truth;
+  std::optional<eval::real_map> right_truth;
   nlohmann::json figures;           // of the reference maps, by map name
   std::filesystem::path reference;  // folder of the reference maps
 };
@@ -61,6 +62,9 @@ inline std::optional<real_pair> find_real_pair(const std::string& scene) {
     for (const char* stem : {stems.first, stems.second}) {
       if (const auto file = file_with_stem(folder, stem); !file.empty()) *mask = eval::read_mask(file);
     }
+  }
+  if (const auto file = file_with_stem(folder, "disp_right"); !file.empty()) {
+    pair.right_truth = eval::read_truth(file, scale);
   }
   std::ifstream figures_file(reference / "figures.json");
   pair.figures = nlohmann::json::parse(figures_file)[scene]["maps"];
