@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "passes/balance_trees.hpp"
+#include "passes/expand_arithmetic.hpp"
 #include "passes/forward_memories.hpp"
 #include "passes/merge_registers.hpp"
 #include "passes/narrow_widths.hpp"
@@ -81,6 +82,7 @@ std::vector<pass_report> run_default_pipeline(graph& g, const pipeline_options& 
   passes.run("merge_registers", merge_registers);  // equal widths make more registers equal
   passes.run("simplify", simplify);
   passes.run("reduce_strength", [](graph& x) { reduce_strength(x); });
+  passes.run("expand_arithmetic", [&](graph& x) { expand_arithmetic(x, options.multiplier_width); });
   passes.run("balance_trees", balance_trees);
   passes.shrink();
   // Packed words are looked at as a whole, so they come last.

@@ -25,7 +25,8 @@ struct pass_report {
 };
 
 struct pipeline_options {
-  unsigned forwarded_writes = 1;  // see forward_memories
+  unsigned forwarded_writes = 1;   // see forward_memories
+  unsigned multiplier_width = 18;  // see expand_arithmetic
 };
 
 /// Runs all passes and tells what each one changed. The result outputs what `g` did (unspecified values count as 0, as

@@ -7,6 +7,7 @@
 #include "dataflow/random_graph.hpp"
 #include "dataflow/text.hpp"
 #include "passes/balance_trees.hpp"
+#include "passes/expand_arithmetic.hpp"
 #include "passes/forward_memories.hpp"
 #include "passes/merge_registers.hpp"
 #include "passes/narrow_widths.hpp"
@@ -45,6 +46,10 @@ TEST(equivalence, narrow_widths) { check(narrow_widths); }
 TEST(equivalence, merge_registers) { check(merge_registers); }
 TEST(equivalence, reduce_strength) {
   check([](graph& g) { reduce_strength(g, 40); });
+}
+TEST(equivalence, expand_arithmetic) {
+  for (const unsigned multiplier_width : {0u, 2u, 5u, 18u})
+    check([multiplier_width](graph& g) { expand_arithmetic(g, multiplier_width); });
 }
 TEST(equivalence, balance_trees) { check(balance_trees); }
 TEST(equivalence, order_memory_accesses) { check(order_memory_accesses); }
