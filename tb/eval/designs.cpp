@@ -13,6 +13,13 @@ constexpr parameter_description color_fuzzy_parameters[] = {
     {"careful_fill", 0, 1, 0, "the filter fills a pixel only between two defined neighbours that agree"},
 };
 
+constexpr parameter_description adaptive_ca_parameters[] = {
+    {"t2", 0, 255, 32, "grey levels of local variation in 2x2 pixels above which the window is 3x3 (4 * t2 in sum)"},
+    {"t5", 0, 3182, 100, "the same in 5x5 pixels above which it is 5x5, else 7x7 (25 * t5 in sum)"},
+    {"automaton", 0, 1, 1, "filter the map with the cellular automaton"},
+    {"ring", 1, 40, 24, "how many of the 40 pixels around must agree with the automaton's choice"},
+};
+
 constexpr design_description designs[] = {
     {.name = "color_fuzzy",
      .meaning = "method 2: colour SAD 7x7, left-right check and uniqueness, fuzzy inference",
@@ -22,6 +29,14 @@ constexpr design_description designs[] = {
      .default_levels = 80,
      .pixels_per_beat = 1,
      .parameters = color_fuzzy_parameters},
+    {.name = "adaptive_ca",
+     .meaning = "method 1: grey SAD, window chosen by local variation, cellular automaton",
+     .max_width = 1024,
+     .max_height = 4095,
+     .max_levels = 80,
+     .default_levels = 80,
+     .pixels_per_beat = 1,
+     .parameters = adaptive_ca_parameters},
 };
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {

@@ -10,31 +10,6 @@ namespace {
 
 using cost_plane = plane<std::uint16_t>;
 
-constexpr int window = 7;
-constexpr int reach = window / 2;
-
-/// |left(x) - right(max(x - d, 0))| of one colour.
-plane<std::int16_t> difference(const plane<std::uint8_t>& left, const plane<std::uint8_t>& right, Eigen::Index d) {
-  const Eigen::Index clamped = std::min(d, left.cols());
-  plane<std::int16_t> matching(left.rows(), left.cols());
-  matching.leftCols(clamped) = right.col(0).cast<std::int16_t>().replicate(1, clamped);
-  matching.rightCols(left.cols() - clamped) = right.leftCols(left.cols() - clamped).cast<std::int16_t>();
-  return (left.cast<std::int16_t>() - matching).abs();
-}
-
-/// Sum over the window; values outside the image are 0.
-cost_plane window_sum(const cost_plane& values) {
-  const Eigen::Index rows = values.rows();
-  const Eigen::Index columns = values.cols();
-  cost_plane above_and_below = cost_plane::Zero(rows + window - 1, columns);
-  above_and_below.middleRows(reach, rows) = values;
-  cost_plane beside = cost_plane::Zero(rows, columns + window - 1);
-  for (int k = 0; k < window; ++k) beside.middleCols(reach, columns) += above_and_below.middleRows(k, rows);
-  cost_plane sum = cost_plane::Zero(rows, columns);
-  for (int k = 0; k < window; ++k) sum += beside.middleCols(k, columns);
-  return sum;
-}
-
 // ---- the default rule base
 // -------------------------------------------------------------------------------------------
 
@@ -79,9 +54,12 @@ operand fill(operand left, operand right, bool careful) {
 }  // namespace
 
 cost_plane aggregated_cost(const colour_image& left, const colour_image& right, int d) {
-  return window_sum((difference(left.red, right.red, d) + difference(left.green, right.green, d) +
-                     difference(left.blue, right.blue, d))
-                        .cast<std::uint16_t>());
+  constexpr int window = 7;
+  const cost_plane difference =
+      (absolute_difference(left.red, right.red, d) + absolute_difference(left.green, right.green, d) +
+       absolute_difference(left.blue, right.blue, d))
+          .cast<std::uint16_t>();
+  return window_sum(difference, window);
 }
 
 disparity_plane confident_winners(const colour_image& left, const colour_image& right,

@@ -2,26 +2,11 @@
 // Reference model of method 2 (colour SAD 7x7, confidence, fuzzy inference): the whole image at once, straight from the
 // equations, with no regard for hardware. It shares no code with hls/ and includes nothing from it.
 
-#include <Eigen/Core>
 #include <cstdint>
 
+#include "golden/planes.hpp"
+
 namespace epiline::golden {
-
-/// One value a pixel; rows() is the height, cols() the width.
-template <class T>
-using plane = Eigen::Array<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-struct colour_image {
-  plane<std::uint8_t> red;
-  plane<std::uint8_t> green;
-  plane<std::uint8_t> blue;
-};
-
-/// Disparities with a valid bit; the disparity of an undefined pixel is 0.
-struct disparity_plane {
-  plane<std::uint8_t> disparity;
-  plane<bool> defined;
-};
 
 struct color_fuzzy_parameters {
   int levels = 80;            // disparities 0 .. levels - 1 take part; at least 1

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "golden/adaptive_ca.hpp"
 #include "golden/color_fuzzy.hpp"
 
 namespace epiline::golden {
@@ -23,29 +24,54 @@ eval::disparity_map map_of(const disparity_plane& planes) {
   return map;
 }
 
-class color_fuzzy_engine final : public eval::engine {
+disparity_plane run_color_fuzzy(const eval::match_request& request) {
+  return color_fuzzy(planes_of(request.left), planes_of(request.right),
+                     {
+                         .levels = request.levels,
+                         .left_right = request.parameters.at("left_right") != 0,
+                         .uniqueness = request.parameters.at("uniqueness"),
+                         .fuzzy = request.parameters.at("fuzzy"),
+                         .careful_fill = request.parameters.at("careful_fill") != 0,
+                     });
+}
+
+disparity_plane run_adaptive_ca(const eval::match_request& request) {
+  return adaptive_ca(planes_of(request.left), planes_of(request.right),
+                     {
+                         .levels = request.levels,
+                         .t2 = request.parameters.at("t2"),
+                         .t5 = request.parameters.at("t5"),
+                         .automaton = request.parameters.at("automaton") != 0,
+                         .ring = request.parameters.at("ring"),
+                     });
+}
+
+class golden_engine final : public eval::engine {
  public:
+  using reference_model = disparity_plane (*)(const eval::match_request&);
+  explicit golden_engine(reference_model model) : model_(model) {}
+
   eval::match_result match(const eval::match_request& request, const eval::run_options& /*options*/) override {
-    const color_fuzzy_parameters parameters{
-        .levels = request.levels,
-        .left_right = request.parameters.at("left_right") != 0,
-        .uniqueness = request.parameters.at("uniqueness"),
-        .fuzzy = request.parameters.at("fuzzy"),
-        .careful_fill = request.parameters.at("careful_fill") != 0,
-    };
     const auto start = std::chrono::steady_clock::now();
     eval::match_result result;
-    result.map = map_of(color_fuzzy(planes_of(request.left), planes_of(request.right), parameters));
+    result.map = map_of(model_(request));
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
   }
+
+ private:
+  reference_model model_;
 };
 
 }  // namespace
 
 void register_engines(eval::engine_registry& registry) {
-  registry.add({"color_fuzzy", "golden", "reference model, whole image, written from the equations",
-                [](const eval::design_description&) { return std::make_unique<color_fuzzy_engine>(); }});
+  const auto add = [&](const char* design, golden_engine::reference_model model) {
+    registry.add({design, "golden", "reference model, whole image, written from the equations",
+                  [model](const eval::design_description&) { return std::make_unique<golden_engine>(model); }});
+  };
+  add("color_fuzzy", run_color_fuzzy);
+  add("adaptive_ca", run_adaptive_ca);
 }
 
 }  // namespace epiline::golden

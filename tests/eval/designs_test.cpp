@@ -37,6 +37,16 @@ TEST(designs, color_fuzzy_has_the_documented_parameters) {
   EXPECT_EQ(find_parameter(*design, "fuzz"), nullptr);
 }
 
+TEST(designs, adaptive_ca_has_the_documented_parameters) {
+  const auto* design = find_design("adaptive_ca");
+  ASSERT_NE(design, nullptr);
+  EXPECT_EQ(default_parameters(*design), (parameter_values{{"t2", 32}, {"t5", 100}, {"automaton", 1}, {"ring", 24}}));
+  EXPECT_EQ(design->max_width, 1024);
+  EXPECT_EQ(design->default_levels, 80);
+  EXPECT_EQ(find_parameter(*design, "ring")->minimum, 1);
+  EXPECT_EQ(find_parameter(*design, "ring")->maximum, 40);
+}
+
 TEST(closest_name, suggests_a_slip_of_the_finger_only) {
   const std::string_view known[] = {"golden", "native", "rtl"};
   EXPECT_EQ(closest_name("natve", known), "native");
