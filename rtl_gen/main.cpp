@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "dataflow/text.hpp"
+#include "emit/register_map.hpp"
 #include "emit/report.hpp"
 #include "emit/verilog.hpp"
 #include "frontend/frontend.hpp"
@@ -33,6 +34,7 @@ struct command_line {
   std::uint64_t seed = 1;
   std::string output;
   std::string depfile;
+  bool axi_lite = false;
   bool quiet = false;
 };
 
@@ -164,8 +166,8 @@ void run(const command_line& given) {
   dataflow::graph graph = frontend::build_graph(process, given.source.top.substr(given.source.top.rfind(':') + 1));
   const double frontend_seconds = watch.lap();
 
-  const std::vector<passes::pass_report> pass_log =
-      passes::run_default_pipeline(graph, {.forwarded_writes = block_memory_latency});
+  const std::vector<passes::pass_report> pass_log = passes::run_default_pipeline(
+      graph, {.forwarded_writes = block_memory_latency, .multiplier_width = model.parameters().multiplier_width});
   if (const std::string violation = dataflow::find_violation(graph); !violation.empty())
     throw std::logic_error("the passes made an ill-formed graph: " + violation);
   const double pass_seconds = watch.lap();
@@ -175,11 +177,18 @@ void run(const command_line& given) {
 
   emit::report_options report_options;
   report_options.passes = passes::to_json(pass_log);
+  report_options.axi_lite = given.axi_lite;
   const nlohmann::json report = emit::make_report(graph, model, schedule, report_options);
-  output.write(graph.name + ".v", emit::emit_verilog(graph, model, schedule));
+  output.write(graph.name + ".v", emit::emit_verilog(graph, model, schedule, {.axi_lite = given.axi_lite}));
   output.write(graph.name + ".graph", dataflow::print(graph));
   output.write("report.json", report.dump(2) + "\n");
   output.write("report.txt", emit::report_text(report));
+  if (given.axi_lite) {
+    const emit::register_map map = emit::make_register_map(graph);
+    output.write(map.module() + ".h", emit::to_c_header(map));
+    output.write(map.module() + ".json", emit::to_json(map).dump(2) + "\n");
+    output.write(map.module() + ".md", emit::to_markdown(map));
+  }
   if (!given.depfile.empty())
     output.write_file(given.depfile,
                       dependency_file((fs::path(given.output) / (graph.name + ".v")).string(), source.dependencies));
@@ -188,10 +197,11 @@ void run(const command_line& given) {
     std::cout << fmt::format(
         "{}: {} operations, {} stages at {:.2f} ns, one iteration every {} clock{}\n"
         "  C++ to graph {:.1f} s, passes {:.1f} s, schedule {:.1f} s, Verilog and reports {:.1f} s\n"
-        "  {}/{}.v, {}.graph, report.json, report.txt\n",
+        "  {}/{}.v, {}.graph, report.json, report.txt{}\n",
         graph.name, graph.nodes.size(), schedule.depth, schedule.period, schedule.initiation_interval,
         schedule.initiation_interval == 1 ? "" : "s", frontend_seconds, pass_seconds, schedule_seconds, watch.lap(),
-        given.output, graph.name, graph.name);
+        given.output, graph.name, graph.name,
+        given.axi_lite ? fmt::format(", {0}_registers.h, {0}_registers.json, {0}_registers.md", graph.name) : "");
 }
 
 }  // namespace
@@ -217,6 +227,9 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"optimal", "random"}))
       ->capture_default_str();
   app.add_option("--seed", given.seed, "of the random schedule")->capture_default_str();
+  app.add_flag(
+      "--axi-lite", given.axi_lite,
+      "put the scalar arguments into registers behind an AXI4-Lite slave, with NAME_registers.h, .json and .md");
   app.add_option("--depfile", given.depfile, "write the files read, as a Makefile rule, for build systems");
   app.add_flag("-q,--quiet", given.quiet, "print nothing but problems");
   CLI11_PARSE(app, argc, argv);

@@ -179,12 +179,4 @@ plan make_plan(const graph& g, const schedule::delay_model& model, const schedul
   return p;
 }
 
-std::string signal_name(const dataflow::port& port, std::string_view signal) {
-  if (port.kind == dataflow::port_kind::call) {
-    if (signal == "tvalid" || signal == "tready") return "call_" + std::string(signal);
-    return std::string(signal);
-  }
-  return std::string(port.input ? "s_axis_" : "m_axis_") + port.name + "_" + std::string(signal);
-}
-
 }  // namespace epiline::emit

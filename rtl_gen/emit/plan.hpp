@@ -72,7 +72,4 @@ struct plan {
 [[nodiscard]] plan make_plan(const dataflow::graph& g, const schedule::delay_model& model, const schedule::result& s,
                              const delay_line_limits& limits = {});
 
-/// The RTL name of a port's signal: "s_axis_left_tdata", or the scalar's own name for a call port.
-[[nodiscard]] std::string signal_name(const dataflow::port& port, std::string_view signal);
-
 }  // namespace epiline::emit

@@ -8,6 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "emit/interface.hpp"
+#include "emit/register_map.hpp"
+
 namespace epiline::emit {
 
 using dataflow::graph;
@@ -33,30 +36,31 @@ std::string location_text(const json& where) {
                          : fmt::format("{}:{}", where["file"].get<std::string>(), where["line"].get<unsigned>());
 }
 
-json describe_interface(const graph& g) {
+json describe_interface(const graph& g, bool axi_lite) {
   json ports = json::array();
-  for (const dataflow::port& port : g.ports) {
+  for (const rtl_port& port : interface_of(g, axi_lite)) {
     json fields = json::array();
-    for (const dataflow::field& f : port.fields) {
+    for (const rtl_field& f : port.fields) {
       fields.push_back({{"name", f.name},
                         {"signal", f.signal},
-                        {"rtl", signal_name(port, f.signal)},
+                        {"rtl", f.rtl},
                         {"width", f.width},
-                        {"offset", f.offset}});
+                        {"offset", f.offset},
+                        {"signed", f.is_signed}});
     }
-    const char* kind = port.kind == dataflow::port_kind::stream ? "stream"
-                       : port.kind == dataflow::port_kind::call ? "call"
-                                                                : "result";
     ports.push_back({{"name", port.name},
-                     {"kind", kind},
+                     {"kind", port.kind},
                      {"direction", port.input ? "input" : "output"},
                      {"width", port.width},
-                     {"valid", signal_name(port, "tvalid")},
-                     {"ready", signal_name(port, "tready")},
+                     {"valid", port.valid},
+                     {"ready", port.ready},
                      {"fields", fields},
                      {"where", location(g, port.where)}});
   }
-  return {{"module", g.name}, {"clock", "clk"}, {"reset", "rst"}, {"reset_active_high", true}, {"ports", ports}};
+  json interface = {
+      {"module", g.name}, {"clock", "clk"}, {"reset", "rst"}, {"reset_active_high", true}, {"ports", ports}};
+  if (axi_lite) interface["registers"] = to_json(make_register_map(g));
+  return interface;
 }
 
 std::string value_name(const graph& g, const node& n) {
@@ -90,7 +94,7 @@ json make_report(const graph& g, const schedule::delay_model& model, const sched
   report["initiation_interval"] = s.initiation_interval;
   report["depth"] = s.depth;
   report["drain_clocks_per_call"] = s.hold;
-  report["interface"] = describe_interface(g);
+  report["interface"] = describe_interface(g, options.axi_lite);
 
   // Latency: from the clock an input token is accepted to the clock its output's tvalid can be seen: the input
   // register before the issue, the FIFO and its output register after the write.
@@ -139,7 +143,13 @@ json make_report(const graph& g, const schedule::delay_model& model, const sched
   std::uint64_t state_bits = 0;
   for (const dataflow::register_state& r : g.registers) state_bits += r.width;
   std::uint64_t input_bits = 0;
-  for (const dataflow::port& port : g.ports) input_bits += port.input ? 2 * port.width + 3 : port.width;
+  for (const dataflow::port& port : g.ports) {
+    if (options.axi_lite && port.kind == dataflow::port_kind::call) {
+      input_bits += make_register_map(g).flip_flops();
+    } else {
+      input_bits += port.input ? 2 * port.width + 3 : port.width;
+    }
+  }
   std::uint64_t word_bits = 0;
   for (node_id id = 0; id < g.nodes.size(); ++id) {
     if (s.stage[id] != settled && s.available[id] > s.stage[id]) word_bits += g.nodes[id].width;
@@ -282,6 +292,14 @@ std::string report_text(const json& report) {
     line("  {:<6} {:<6} {}:{} {} {}{}", port["direction"].get<std::string>(), port["kind"].get<std::string>(), name,
          signals, port["valid"].get<std::string>(), port["ready"].get<std::string>(),
          latency.contains(name) ? fmt::format("  latency {} clocks", number(latency[name])) : "");
+  }
+
+  if (report["interface"].contains("registers")) {
+    line("Registers behind s_axi");
+    for (const json& entry : report["interface"]["registers"]["registers"]) {
+      line("  0x{:03x} {:<10} {} {}bits, {}", number(entry["address"]), entry["name"].get<std::string>(),
+           number(entry["width"]), entry["signed"].get<bool>() ? "signed " : "", entry["access"].get<std::string>());
+    }
   }
 
   line("\nSlowest chain: {:.2f} ns from clock to clock", report["critical_chain"]["delay_ns"].get<double>());

@@ -14,6 +14,10 @@
 #include <unordered_set>
 #include <utility>
 
+#include "emit/interface.hpp"
+#include "emit/register_map.hpp"
+#include "emit/text.hpp"
+
 namespace epiline::emit {
 
 using dataflow::graph;
@@ -67,8 +71,6 @@ bool is_identifier(std::string_view name) {
                      [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; });
 }
 
-std::string range_of(unsigned width) { return width == 1 ? "" : fmt::format("[{}:0] ", width - 1); }
-
 std::string literal(const llvm::APInt& value) {
   const unsigned width = value.getBitWidth();
   llvm::SmallString<64> digits;
@@ -84,15 +86,15 @@ std::string literal(unsigned width, std::uint64_t value) { return literal(llvm::
 
 unsigned bits_for(std::uint64_t largest) { return std::max(1u, static_cast<unsigned>(std::bit_width(largest))); }
 
-std::string base_name(std::string_view path) {
-  const std::size_t slash = path.find_last_of('/');
-  return std::string(slash == std::string_view::npos ? path : path.substr(slash + 1));
-}
-
 class writer {
  public:
   writer(const graph& g, const schedule::delay_model& model, const schedule::result& s, const verilog_options& options)
-      : g_(g), s_(s), options_(options), model_(model), plan_(make_plan(g, model, s, options.delay_lines)) {}
+      : g_(g),
+        s_(s),
+        options_(options),
+        model_(model),
+        plan_(make_plan(g, model, s, options.delay_lines)),
+        interface_(interface_of(g, options.axi_lite)) {}
 
   std::string write();
 
@@ -134,6 +136,7 @@ class writer {
   void write_interface();
   void write_control_declarations();
   void write_inputs();
+  void write_sampled_arguments(const std::string& name);
   void write_settled();
   void write_memory_declarations();
   void write_contents(const std::string& name, const std::vector<llvm::APInt>& values);
@@ -150,6 +153,7 @@ class writer {
   void write_node(node_id id);
   void declare_register(register_id r);
 
+  bool is_sampled(const dataflow::port& port) const { return options_.axi_lite && port.kind == port_kind::call; }
   bool has_hold() const { return s_.hold > 0 || s_.initiation_interval > 1; }
   int most_hold() const { return std::max(s_.hold, s_.initiation_interval - 1); }
   int settle_clocks() const { return s_.hold - s_.commit; }
@@ -159,6 +163,7 @@ class writer {
   const verilog_options& options_;
   const schedule::delay_model& model_;
   plan plan_;
+  std::vector<rtl_port> interface_;
   std::string out_;
   std::unordered_set<std::string> taken_;
   std::map<std::string, unsigned, std::less<>> numbers_;
@@ -202,12 +207,16 @@ std::string writer::fresh_port(const std::string& wanted) {
                                       "_take",       "_push",  "_move",    "_fifo",        "_in",
                                       "_out",        "_word",  "_left",    "_skipped",     "_load",
                                       "_word_there", "_data",  "_credits", "_room",        "_credits_next"};
+  constexpr const char* argument_suffixes[] = {"_registers", "_wanted", "_sample", "_start",
+                                               "_hold",      "_keep",   "_slave"};
+  std::vector<const char*> used(std::begin(suffixes), std::end(suffixes));
+  if (options_.axi_lite) used.insert(used.end(), std::begin(argument_suffixes), std::end(argument_suffixes));
   for (;;) {
     const std::string name = fresh(wanted);
-    const bool clash = std::any_of(std::begin(suffixes), std::end(suffixes),
-                                   [&](const char* suffix) { return taken_.contains(name + suffix); });
+    const bool clash =
+        std::any_of(used.begin(), used.end(), [&](const char* suffix) { return taken_.contains(name + suffix); });
     if (clash) continue;
-    for (const char* suffix : suffixes) taken_.insert(name + suffix);
+    for (const char* suffix : used) taken_.insert(name + suffix);
     return name;
   }
 }
@@ -233,10 +242,17 @@ void writer::reserve_interface() {
   reserve(g_.name, "top", {});
   reserve("clk", "signal", {});
   reserve("rst", "signal", {});
-  for (const dataflow::port& port : g_.ports) {
-    for (const dataflow::field& f : port.fields) reserve(signal_name(port, f.signal), "port signal", port.where);
-    reserve(signal_name(port, "tvalid"), "port signal", port.where);
-    reserve(signal_name(port, "tready"), "port signal", port.where);
+  for (const rtl_port& port : interface_) {
+    for (const rtl_field& f : port.fields) reserve(f.rtl, "port signal", port.where);
+    reserve(port.valid, "port signal", port.where);
+    reserve(port.ready, "port signal", port.where);
+  }
+  if (options_.axi_lite) {
+    for (const argument_register& argument : make_register_map(g_).arguments) {
+      if (is_identifier(argument.name)) continue;
+      throw std::invalid_argument(
+          fmt::format("argument '{}' cannot have that name in Verilog: rename it", argument.name));
+    }
   }
   for (const char* name : {"fire", "running", "valid", "hold", "holding", "commit"}) {
     if (!taken_.insert(name).second) {
@@ -420,8 +436,8 @@ std::string writer::index(node_id address, int stage, std::uint64_t words) const
 }
 
 std::string writer::comment(dataflow::source_location where) const {
-  if (where.line == 0 || where.file >= g_.files.size()) return "";
-  return fmt::format("  // {}:{}", base_name(g_.files[where.file]), where.line);
+  const std::string place = place_text(g_, where);
+  return place.empty() ? "" : "  // " + place;
 }
 
 writer::text_of_value writer::expression(node_id id) const {
@@ -550,19 +566,19 @@ void writer::write_interface() {
   line("module {} (", g_.name);
   line("  input  wire clk,");
   out_ += "  input  wire rst";
-  for (const dataflow::port& port : g_.ports) {
+  for (const rtl_port& port : interface_) {
     out_ += ",\n";
     const auto put = [&](bool input, unsigned width, const std::string& name) {
       fmt::format_to(std::back_inserter(out_), "  {} wire {}{}", input ? "input " : "output", range_of(width), name);
     };
     if (port.where.line != 0) out_ += comment(port.where) + "\n";
-    for (const dataflow::field& f : port.fields) {
-      put(port.input, f.width, signal_name(port, f.signal));
+    for (const rtl_field& f : port.fields) {
+      put(port.input, f.width, f.rtl);
       out_ += ",\n";
     }
-    put(port.input, 1, signal_name(port, "tvalid"));
+    put(port.input, 1, port.valid);
     out_ += ",\n";
-    put(!port.input, 1, signal_name(port, "tready"));
+    put(!port.input, 1, port.ready);
   }
   out_ += "\n);\n";
 }
@@ -583,6 +599,10 @@ void writer::write_inputs() {
     const dataflow::port& port = g_.ports[i];
     if (!port.input) continue;
     const std::string& name = port_name_[i];
+    if (is_sampled(port)) {
+      write_sampled_arguments(name);
+      continue;
+    }
     title(fmt::format("input {}: two registers deep, so that tready comes from a flip-flop", port.name));
     std::string token;
     for (std::size_t f = port.fields.size(); f-- > 0;) {
@@ -617,6 +637,47 @@ void writer::write_inputs() {
     line("    end");
     line("  end");
   }
+}
+
+void writer::write_sampled_arguments(const std::string& name) {
+  const register_map map = make_register_map(g_);
+  title("arguments: registers behind an AXI4-Lite slave, sampled when a call starts");
+  std::string signals, waiting;
+  for (const rtl_port& port : interface_) {
+    if (port.kind != "axi_lite") continue;
+    const auto connect = [&](const std::string& signal) { signals += fmt::format("    .{0}({0}),\n", signal); };
+    for (const rtl_field& f : port.fields) connect(f.rtl);
+    connect(port.valid);
+    connect(port.ready);
+  }
+  for (std::size_t i = 0; i < g_.ports.size(); ++i) {
+    if (!g_.ports[i].input || is_sampled(g_.ports[i])) continue;
+    waiting += (waiting.empty() ? "" : " | ") + port_name_[i] + "_there";
+  }
+  const std::string range = range_of(map.argument_bits);
+  line("  wire {}{}_registers;", range, name);
+  line("  reg {}{}_token;", range, name);
+  line("  reg {}_there;", name);
+  line("  wire {0}_take, {0}_start, {0}_hold, {0}_keep;", name);
+  line("  wire {}_wanted;  // the next iteration begins a call", name);
+  if (waiting.empty()) {
+    line("  wire {0}_sample = {0}_wanted & ~{0}_there & {0}_start;", name);
+  } else {
+    line("  wire {0}_sample = {0}_wanted & ~{0}_there & ({0}_start | (~{0}_hold & ({1})));", name, waiting);
+  }
+  line("  {} {}_slave (\n    .clk(clk),\n    .rst(rst),", map.module(), name);
+  out_ += signals;
+  line("    .started({}_sample),", name);
+  for (const char* bit : {"start", "hold", "keep"}) line("    .{0}({1}_{0}),", bit, name);
+  line("    .arguments({}_registers)\n  );", name);
+  line("  always @(posedge clk) begin");
+  line("    if ({0}_sample & ~{0}_keep) {0}_token <= {0}_registers;", name);
+  line("    {0}_there <= {0}_sample | ({0}_there & ~{0}_take);", name);
+  line("    if (rst) begin");
+  line("      {}_token <= {};", name, literal(map.argument_bits, 0));
+  line("      {}_there <= 1'b0;", name);
+  line("    end");
+  line("  end");
 }
 
 void writer::declare_register(register_id r) {
@@ -893,10 +954,10 @@ void writer::write_issue() {
         take += operand(g_.nodes[id].operands[0], 0);
       }
     }
-    if (take.empty()) {
-      line("  assign {}_take = 1'b0;", port_name_[i]);
-    } else {
-      line("  assign {}_take = fire & ({});", port_name_[i], take);
+    if (take.empty()) take = "1'b0";
+    line("  assign {}_take = fire & ({});", port_name_[i], take);
+    if (is_sampled(g_.ports[i])) {
+      line("  assign {}_wanted = running{} & ({});", port_name_[i], has_hold() ? " & ~holding" : "", take);
     }
   }
   if (!has_hold()) return;
@@ -1193,6 +1254,7 @@ std::string writer::write() {
   if (!plan_.fifos.empty()) title("outputs: a FIFO with room for all iterations in flight");
   write_outputs();
   line("\nendmodule\n");
+  if (options_.axi_lite) line("{}", emit_axi_lite_slave(make_register_map(g_)));
   line("`default_nettype wire");
   return std::move(out_);
 }

@@ -11,9 +11,10 @@
 namespace epiline::cosim {
 
 enum class port_kind : std::uint8_t {
-  stream,  // s_axis_NAME_* or m_axis_NAME_*
-  call,    // the scalars by value: one token a call of the top
-  result,  // a scalar by reference: one token a call
+  stream,    // s_axis_NAME_* or m_axis_NAME_*
+  call,      // the scalars by value: one token a call of the top
+  result,    // a scalar by reference: one token a call
+  axi_lite,  // a channel of the AXI4-Lite slave: s_axi_aw, s_axi_w, s_axi_b, s_axi_ar, s_axi_r
 };
 
 /// One signal of a port's payload.

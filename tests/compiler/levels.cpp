@@ -38,6 +38,8 @@ const char* kind_name(cosim::port_kind kind) {
       return "call";
     case cosim::port_kind::result:
       return "result";
+    case cosim::port_kind::axi_lite:
+      return "axi_lite";
   }
   return "";
 }

@@ -12,7 +12,7 @@
 #include <sstream>
 
 #include "dataflow/interpreter.hpp"
-#include "emit/plan.hpp"
+#include "emit/interface.hpp"
 
 namespace epiline::testing {
 
