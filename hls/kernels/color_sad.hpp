@@ -8,6 +8,14 @@
 
 namespace epiline::kernels {
 
+/// The window of a colour SAD, as its sums take it. Config: pixels_per_beat, window_radius.
+template <class Config>
+struct color_window {
+  static constexpr int radius = Config::window_radius;
+  static constexpr int largest_difference = 765;
+  static constexpr int delay_beats = window::divide_up(radius, Config::pixels_per_beat);
+};
+
 /// Colour SAD over a square window: C(x, y, d) = sum over the N x N pixels around (x, y) of |dR| + |dG| + |dB| between
 /// left pixel x and right pixel max(x - d, 0). Two differences a level and lane (the row that enters the window, the
 /// row that leaves it) and four adders, whatever N.
@@ -18,17 +26,20 @@ namespace epiline::kernels {
 /// Config: levels, pixels_per_beat, max_width, window_radius.
 template <class Config>
 class color_sad {
+  using columns = column_sum<Config, color_window<Config>>;
+  using rows = row_sum<Config, color_window<Config>>;
+
  public:
   static constexpr int lanes = Config::pixels_per_beat;
   static constexpr int levels = Config::levels;
   static constexpr int window_rows = 2 * Config::window_radius + 1;
-  static constexpr int delay_beats = row_sum<Config>::delay_beats;
+  static constexpr int delay_beats = rows::delay_beats;
   using beat_t = ap_uint<lanes * color_bits>;
-  using cost_t = typename row_sum<Config>::cost_t;
-  using costs = typename row_sum<Config>::costs;
+  using cost_t = typename rows::cost_t;
+  using costs = typename rows::costs;
 
   struct place {
-    typename column_sum<Config>::place column;
+    typename columns::place column;
     bool row_starts;     // the first beat of a row
     bool row_can_leave;  // a row of this frame leaves the window: at least window_rows rows came before
   };
@@ -56,8 +67,8 @@ class color_sad {
   // A column right of the window's centre reaches `window_radius` pixels further left than the centre's candidates do.
   using taps = pixel_taps<lanes, lanes - 1 + levels, Config::window_radius>;
 
-  static typename column_sum<Config>::differences differences(const beat_t& left, const beat_t& right, taps& history,
-                                                              bool row_starts) {
+  static typename columns::differences differences(const beat_t& left, const beat_t& right, taps& history,
+                                                   bool row_starts) {
     color left_pixels[lanes];
     color right_pixels[lanes];
     for (int lane = 0; lane < lanes; ++lane) {
@@ -65,7 +76,7 @@ class color_sad {
       right_pixels[lane] = color_of_lane(right, lane);
     }
     history.step(right_pixels, row_starts);
-    typename column_sum<Config>::differences result;
+    typename columns::differences result;
     for (int lane = 0; lane < lanes; ++lane) {
       const color pixel = left_pixels[lane];
       for (int d = 0; d < levels; ++d) {
@@ -82,8 +93,8 @@ class color_sad {
   window::line_buffer<beat_t, window_rows, max_beats> right_rows_;
   taps entering_right_;
   taps leaving_right_;
-  column_sum<Config> columns_;
-  row_sum<Config> rows_;
+  columns columns_;
+  rows rows_;
 };
 
 }  // namespace epiline::kernels

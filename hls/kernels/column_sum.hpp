@@ -15,14 +15,14 @@ namespace epiline::kernels {
 /// Border policy: columns outside the frame are 0. Rows outside are 0 because the caller passes differences of 0 there.
 /// State: the RAM. The first row of a frame does not use it, so it needs no clearing.
 ///
-/// Config: levels, pixels_per_beat, max_width, window_radius.
-template <class Config>
+/// Config: levels, pixels_per_beat, max_width. Window: radius, largest_difference of two pixels.
+template <class Config, class Window>
 class column_sum {
  public:
   static constexpr int lanes = Config::pixels_per_beat;
   static constexpr int levels = Config::levels;
   static constexpr int beats = window::divide_up(Config::max_width, lanes);
-  using sum_t = ap_uint<window::bits_for((2 * Config::window_radius + 1) * 765)>;
+  using sum_t = ap_uint<window::bits_for((2 * Window::radius + 1) * Window::largest_difference)>;
   using differences = level_array<color_difference_t, lanes, levels>;
   using sums = level_array<sum_t, lanes, levels>;
 

@@ -1,8 +1,8 @@
 #pragma once
 #include <ap_int.h>
 
-#include "kernels/column_sum.hpp"
 #include "kernels/level_array.hpp"
+#include "window/bits.hpp"
 
 namespace epiline::kernels {
 
@@ -17,18 +17,20 @@ namespace epiline::kernels {
 /// equals the sum of its columns. It holds at zero and no step breaks it, so nothing is to be reset between rows or
 /// frames; an object must start zeroed (static, or T{}).
 ///
-/// Config: levels, pixels_per_beat, window_radius.
-template <class Config>
+/// Config: levels, pixels_per_beat. Window: radius, largest_difference of two pixels, delay_beats (at least the beats
+/// of the radius; more of them line the result up with that of a wider window).
+template <class Config, class Window>
 class row_sum {
  public:
   static constexpr int lanes = Config::pixels_per_beat;
   static constexpr int levels = Config::levels;
-  static constexpr int window_columns = 2 * Config::window_radius + 1;
-  static constexpr int delay_beats = window::divide_up(Config::window_radius, lanes);
+  static constexpr int window_columns = 2 * Window::radius + 1;
+  static constexpr int delay_beats = Window::delay_beats;
+  static_assert(delay_beats * lanes >= Window::radius, "the window reaches further right than the newest column");
 
-  using column_t = typename column_sum<Config>::sum_t;
-  using column_beat = typename column_sum<Config>::sums;
-  using cost_t = ap_uint<window::bits_for(window_columns* window_columns * 765)>;
+  using column_t = ap_uint<window::bits_for(window_columns* Window::largest_difference)>;
+  using column_beat = level_array<column_t, lanes, levels>;
+  using cost_t = ap_uint<window::bits_for(window_columns* window_columns* Window::largest_difference)>;
   using costs = level_array<cost_t, lanes, levels>;
 
   costs step(const column_beat& newest) {
@@ -57,7 +59,7 @@ class row_sum {
 
  private:
   /// How many columns the window's right end lies behind the lane, so that results come out in whole beats.
-  static constexpr int skew = delay_beats * lanes - Config::window_radius;
+  static constexpr int skew = delay_beats * lanes - Window::radius;
   static constexpr int history = window::larger(skew + window_columns, lanes);
   using change_t = ap_int<16>;  // modulo 2^16, as the sum
 

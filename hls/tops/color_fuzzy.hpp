@@ -1,6 +1,5 @@
 #pragma once
 // Method 2, dense: colour SAD 7x7, winner take all, confidence, fuzzy inference. The whole method is one pixel loop.
-#include <ap_axi_sdata.h>
 #include <ap_int.h>
 #include <hls_stream.h>
 
@@ -11,10 +10,11 @@
 #include "kernels/fuzzy_rule_base.hpp"
 #include "kernels/left_right_check.hpp"
 #include "kernels/uniqueness.hpp"
+#include "kernels/winner.hpp"
+#include "tops/stereo_interface.hpp"
 #include "window/bits.hpp"
 #include "window/line_buffer.hpp"
 #include "window/raster.hpp"
-#include "window/reduce.hpp"
 
 namespace epiline::tops {
 
@@ -32,24 +32,10 @@ struct color_fuzzy_config {
 
 /// The types of a configuration's interface and its constants of time.
 template <class Config>
-struct color_fuzzy_interface {
-  static_assert(Config::levels >= 1 && Config::levels <= 128, "disparities have 7 bits");
-  static constexpr int lanes = Config::pixels_per_beat;
-
-  /// Pixels of the left or right image: 24 bits a lane, red in the low byte, lane 0 in the low bits. Only data is
-  /// looked at.
-  using video_beat = ap_axiu<lanes * kernels::color_bits, 1, 0, 0>;
-  /// Disparities: 8 bits a lane, the disparity in bits 6..0, bit 7 = defined; 0 if undefined or outside the row.
-  /// user = first beat of the frame, last = last beat of a row, keep = strb = the lanes inside the row.
-  using disparity_beat = ap_axiu<lanes * 8, 1, 0, 0>;
-
-  using width_t = ap_uint<window::bits_for(Config::max_width)>;
-  using height_t = ap_uint<window::bits_for(Config::max_height)>;
-  using levels_t = ap_uint<window::bits_for(Config::levels)>;
-
+struct color_fuzzy_interface : stereo_interface<Config> {
   /// How the raster walks over a frame.
   struct schedule {
-    static constexpr int maximum_beats = window::divide_up(Config::max_width, lanes);
+    static constexpr int maximum_beats = window::divide_up(Config::max_width, Config::pixels_per_beat);
     static constexpr int maximum_rows = Config::max_height;
     static constexpr int padding_beats = kernels::color_sad<Config>::delay_beats;
     static constexpr int padding_rows = Config::window_radius;
@@ -58,27 +44,10 @@ struct color_fuzzy_interface {
                                        2 * kernels::fuzzy_filter<Config>::delay_beats;
     static constexpr int minimum_row_beats = window::shortest_row;
   };
-  static_assert(schedule::padding_beats * lanes >= Config::fuzzy_radius, "rows lie too close for the fuzzy filter");
+  static_assert(schedule::padding_beats * Config::pixels_per_beat >= Config::fuzzy_radius,
+                "rows lie too close for the fuzzy filter");
   static_assert(schedule::flush_beats >= schedule::minimum_row_beats, "the flush is a row, too");
 };
-
-/// The output token of a beat.
-template <class Config>
-typename color_fuzzy_interface<Config>::disparity_beat output_beat(
-    const kernels::disparity_beat_of<Config::pixels_per_beat>& found) {
-  typename color_fuzzy_interface<Config>::disparity_beat out;
-  out.data = 0;
-  for (int lane = 0; lane < Config::pixels_per_beat; ++lane) {
-    const kernels::disparity_pixel pixel = found.pixel[lane];
-    const ap_uint<8> value = (ap_uint<8>(1) << 7) | pixel.disparity;
-    if (pixel.defined) out.data.range(8 * lane + 7, 8 * lane) = value;
-    out.keep[lane] = pixel.in_frame;
-  }
-  out.strb = out.keep;
-  out.user = found.marks.first_beat;
-  out.last = found.marks.last_of_row;
-  return out;
-}
 
 /// One frame of method 2. Preconditions: width 1 .. max_width, height 1 .. max_height, levels 1 .. Config::levels.
 /// `uniqueness` is in sixteenths (0 = off), `fuzzy` the number of passes (more than 2 count as 2).
@@ -123,9 +92,7 @@ void color_fuzzy_frame(hls::stream<typename color_fuzzy_interface<Config>::video
     typename sad::place at;
     at.column.beat = raster.beat();
     at.column.in_columns = raster.in_columns();
-    for (int lane = 0; lane < lanes; ++lane) {
-      at.column.lane_in[lane] = raster.beat() * lanes + lane < width && !raster.in_flush();
-    }
+    lanes_inside(raster.beat() * lanes, width, !raster.in_flush(), at.column.lane_in);
     at.column.first_row = raster.row() == 0;
     at.row_starts = raster.beat() == 0;
     at.row_can_leave = raster.row() >= sad::window_rows;
@@ -137,20 +104,12 @@ void color_fuzzy_frame(hls::stream<typename color_fuzzy_interface<Config>::video
     const typename frame_raster::beat_t centre_beat = raster.beat() - schedule::padding_beats;
     const ap_uint<window::bits_for(frame_raster::longest_row * lanes)> centre_x = centre_beat * lanes;
     bool pixel_in[lanes];
-    for (int lane = 0; lane < lanes; ++lane) {
-      pixel_in[lane] = centre_in_rows && centre_started && centre_x + lane < width;
-    }
+    lanes_inside(centre_x, width, centre_in_rows && centre_started, pixel_in);
     const auto costs = candidate_mask<Config, typename sad::costs>::step(all_costs, centre_x, pixel_in, levels);
 
     disparity_beat_of<lanes> found;
     typename sad::cost_t lowest[lanes];
-    for (int lane = 0; lane < lanes; ++lane) {
-      const auto winner = window::minimum<window::smallest_index_wins>(costs.at[lane]);
-      lowest[lane] = winner.value;
-      found.pixel[lane].disparity = winner.index;
-      found.pixel[lane].defined = pixel_in[lane];
-      found.pixel[lane].in_frame = pixel_in[lane];
-    }
+    pick_winners(costs, pixel_in, found.pixel, lowest);
     found.marks.in_frame = pixel_in[0];
     found.marks.first_beat = raster.row() == schedule::padding_rows && centre_beat == 0;
     found.marks.last_of_row = centre_beat == beats - 1;

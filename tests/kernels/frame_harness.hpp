@@ -1,11 +1,12 @@
 #pragma once
-// Feeds a configuration of method 2 with pictures and collects its disparity map, checking every side signal.
+// Feeds a configuration of a method with pictures and collects its disparity map, checking every side signal.
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <random>
 #include <vector>
 
+#include "tops/adaptive_ca.hpp"
 #include "tops/color_fuzzy.hpp"
 
 namespace epiline::test {
@@ -31,6 +32,14 @@ struct settings {
   int uniqueness = 17;
   int fuzzy = 2;
   bool careful_fill = false;
+};
+
+struct adaptive_ca_settings {
+  int levels = 80;
+  int t2 = 32;
+  int t5 = 100;
+  bool automaton = true;
+  int ring = 24;
 };
 
 inline constexpr int undefined = 255;
@@ -60,10 +69,11 @@ inline stereo_pair random_pair(std::mt19937& random, int width, int height, int 
   return pair;
 }
 
-template <class Config>
-disparity_map run_color_fuzzy(const stereo_pair& pair, const settings& with) {
-  using types = tops::color_fuzzy_interface<Config>;
-  constexpr int lanes = Config::pixels_per_beat;
+/// Calls `top(left, right, disparity)` on streams that hold the pair. Types: its interface.
+template <class Types, class Top>
+disparity_map run_frame(const stereo_pair& pair, Top top) {
+  using types = Types;
+  constexpr int lanes = types::lanes;
   hls::stream<typename types::video_beat> left("left");
   hls::stream<typename types::video_beat> right("right");
   hls::stream<typename types::disparity_beat> disparity("disparity");
@@ -88,8 +98,7 @@ disparity_map run_color_fuzzy(const stereo_pair& pair, const settings& with) {
       }
     }
   }
-  tops::color_fuzzy_frame<Config>(left, right, disparity, width, height, with.levels, with.left_right, with.uniqueness,
-                                  with.fuzzy, with.careful_fill);
+  top(left, right, disparity);
   EXPECT_TRUE(left.empty());
   EXPECT_TRUE(right.empty());
   disparity_map map;
@@ -119,6 +128,22 @@ disparity_map run_color_fuzzy(const stereo_pair& pair, const settings& with) {
   }
   EXPECT_TRUE(disparity.empty());
   return map;
+}
+
+template <class Config>
+disparity_map run_color_fuzzy(const stereo_pair& pair, const settings& with) {
+  return run_frame<tops::color_fuzzy_interface<Config>>(pair, [&](auto& left, auto& right, auto& disparity) {
+    tops::color_fuzzy_frame<Config>(left, right, disparity, pair.left.width, pair.left.height, with.levels,
+                                    with.left_right, with.uniqueness, with.fuzzy, with.careful_fill);
+  });
+}
+
+template <class Config>
+disparity_map run_adaptive_ca(const stereo_pair& pair, const adaptive_ca_settings& with) {
+  return run_frame<tops::adaptive_ca_interface<Config>>(pair, [&](auto& left, auto& right, auto& disparity) {
+    tops::adaptive_ca_frame<Config>(left, right, disparity, pair.left.width, pair.left.height, with.levels, with.t2,
+                                    with.t5, with.automaton, with.ring);
+  });
 }
 
 }  // namespace epiline::test

@@ -1,0 +1,198 @@
+#pragma once
+#include <ap_int.h>
+
+#include "kernels/disparity.hpp"
+#include "window/bits.hpp"
+#include "window/line_buffer.hpp"
+#include "window/reduce.hpp"
+#include "window/window.hpp"
+
+namespace epiline::kernels {
+
+/// A pixel's label: its disparity, and bit 7 = defined. An undefined label is 0.
+using label_t = ap_uint<8>;
+
+/// The square of labels around a centre that walks over the raster, `Radius` rows above and `delay_beats` beats before
+/// the newest label. Rows above come from line buffers, columns from registers.
+///
+/// Border policy: cells outside the frame are undefined. The caller provides `Radius` rows of undefined labels before
+/// and after the frame, and between two rows at least `Radius` labels outside the columns, which are taken as
+/// undefined.
+///
+/// Config: pixels_per_beat, max_width.
+template <class Config, int Radius>
+class label_window {
+ public:
+  static constexpr int lanes = Config::pixels_per_beat;
+  static constexpr int rows = 2 * Radius + 1;
+  static constexpr int delay_beats = window::divide_up(Radius, lanes);
+
+  /// `beat`: of the row; it may come again after `shortest_row` iterations at the earliest.
+  void step(const label_t (&newest)[lanes], int beat, bool in_columns) {
+#pragma HLS INLINE
+    label_t labels[rows][lanes];
+    for (int row = 0; row < rows; ++row) {
+      for (int lane = 0; lane < lanes; ++lane) labels[row][lane] = 0;
+    }
+    if (in_columns) {
+      word_t word;
+      for (int lane = 0; lane < lanes; ++lane) word.range(8 * lane + 7, 8 * lane) = newest[lane];
+      const auto above = lines_.step(word, beat);
+      for (int lane = 0; lane < lanes; ++lane) {
+        labels[rows - 1][lane] = newest[lane];
+        for (int row = 0; row < rows - 1; ++row) {
+          labels[row][lane] = above.rows[rows - 2 - row].range(8 * lane + 7, 8 * lane);
+        }
+      }
+    }
+    for (int row = 0; row < rows; ++row) rows_[row].step(labels[row], false);
+  }
+
+  /// The cell `down` rows below and `right` columns right of the lane's centre.
+  label_t cell(int lane, int down, int right) const {
+    return rows_[Radius + down].tap[delay_beats * lanes + lanes - 1 - lane - right];
+  }
+
+ private:
+  using word_t = ap_uint<lanes * 8>;
+  window::line_buffer<word_t, rows - 1, window::divide_up(Config::max_width, lanes)> lines_;
+  window::row_window<label_t, lanes, delay_beats * lanes + lanes + Radius> rows_[rows];
+};
+
+/// Cellular automaton on the binary planes of all levels, equations (3) and (4) of the paper, without the planes: only
+/// a level present in a pixel's 3x3 neighbourhood can claim the pixel, so labels are enough.
+///   rule 1: no neighbour of 8 set: 0; at least 7 of 8 set: 1 (and the pixel leaves its old plane); else unchanged.
+///   rule 2, on the result of rule 1: at least one of the 3x3 set and at least `ring` of the 40 cells of the 7x7 around
+///   it: 1, else 0.
+/// A pixel claimed by exactly one level gets it; by none or by several: undefined.
+///
+/// Lane l of the result belongs to the pixel `delay_rows` rows above and `delay_beats` beats before the newest one.
+/// Border policy: see label_window; pixels outside the frame are set in no plane, and no rule sets them.
+/// State: the two windows, and what belongs to the beats between them.
+///
+/// Config: pixels_per_beat, max_width.
+template <class Config>
+class ca_filter {
+  using near_window = label_window<Config, 1>;
+  using ring_window = label_window<Config, 3>;
+
+ public:
+  static constexpr int lanes = Config::pixels_per_beat;
+  static constexpr int delay_rows = 1 + 3;
+  static constexpr int delay_beats = near_window::delay_beats + ring_window::delay_beats;
+  static constexpr int ring_cells = 7 * 7 - 3 * 3;
+  using ring_t = ap_uint<6>;
+
+  struct place {
+    int beat;              // of the row, may lie outside the frame
+    bool in_columns;       // the beat lies in the columns of the frame
+    bool in_frame[lanes];  // the pixel `delay_rows` above lies in the frame
+    beat_marks marks;      // of the beat `delay_rows` above
+  };
+
+  /// `newest`: defined only inside the frame. Not `enabled`: labels pass unchanged. `ring`: 1 .. 40.
+  disparity_beat_of<lanes> step(const disparity_pixel (&newest)[lanes], const place& at, bool enabled, ring_t ring) {
+#pragma HLS INLINE
+    label_t labels[lanes];
+    for (int lane = 0; lane < lanes; ++lane) {
+      labels[lane] = newest[lane].defined ? label_t(label_t(defined) | newest[lane].disparity) : label_t(0);
+    }
+    near_.step(labels, at.beat, at.in_columns);
+    const place newest_place[1] = {at};
+    places_.step(newest_place, false);
+
+    label_t settled[lanes];
+    for (int lane = 0; lane < lanes; ++lane) {
+      settled[lane] = enabled ? rule1(near_, lane) : near_.cell(lane, 0, 0);
+    }
+    const place& at_ring = places_.tap[near_window::delay_beats];
+    ring_.step(settled, at_ring.beat, at_ring.in_columns);
+
+    const place& at_result = places_.tap[delay_beats];
+    disparity_beat_of<lanes> result;
+    for (int lane = 0; lane < lanes; ++lane) {
+      const label_t label = enabled ? rule2(ring_, lane, ring) : ring_.cell(lane, 0, 0);
+      result.pixel[lane].disparity = label;
+      result.pixel[lane].defined = at_result.in_frame[lane] && (label & defined) != 0;
+      result.pixel[lane].in_frame = at_result.in_frame[lane];
+    }
+    result.marks = at_result.marks;
+    return result;
+  }
+
+ private:
+  static constexpr int defined = 0x80;
+
+  /// A level set in 7 of 8 neighbours is set in one of any two of them.
+  static label_t rule1(const near_window& labels, int lane) {
+#pragma HLS INLINE
+    const label_t centre = labels.cell(lane, 0, 0);
+    label_t neighbour[8];
+    int count = 0;
+    for (int down = -1; down <= 1; ++down) {
+      for (int right = -1; right <= 1; ++right) {
+        if (down != 0 || right != 0) neighbour[count++] = labels.cell(lane, down, right);
+      }
+    }
+    if (is_born(neighbour[0], neighbour)) return neighbour[0];
+    if (is_born(neighbour[1], neighbour)) return neighbour[1];
+    return equal_cells(centre, neighbour) >= 1 ? centre : label_t(0);
+  }
+
+  static bool is_born(label_t label, const label_t (&neighbour)[8]) {
+    return (label & defined) != 0 && equal_cells(label, neighbour) >= 7;
+  }
+
+  /// Who claims a pixel.
+  struct claim {
+    label_t label;
+    ap_uint<1> any;
+    ap_uint<1> several;
+  };
+
+  static label_t rule2(const ring_window& labels, int lane, ring_t ring) {
+#pragma HLS INLINE
+    label_t cells[ring_cells];
+    label_t near[9];
+    int ring_count = 0;
+    int near_count = 0;
+    for (int down = -3; down <= 3; ++down) {
+      for (int right = -3; right <= 3; ++right) {
+        const bool is_near = down >= -1 && down <= 1 && right >= -1 && right <= 1;
+        if (is_near) {
+          near[near_count++] = labels.cell(lane, down, right);
+        } else {
+          cells[ring_count++] = labels.cell(lane, down, right);
+        }
+      }
+    }
+    claim claims[9];
+    for (int i = 0; i < 9; ++i) {
+      claims[i].label = near[i];
+      claims[i].any = (near[i] & defined) != 0 && equal_cells(near[i], cells) >= ring;
+      claims[i].several = 0;
+    }
+    // Neighbours of the same level make the same claim.
+    const claim all = window::reduce(claims, [](const claim& a, const claim& b) {
+      claim both;
+      both.label = a.any ? a.label : b.label;
+      both.any = a.any | b.any;
+      both.several = a.several | b.several | (a.any & b.any & ap_uint<1>(a.label != b.label));
+      return both;
+    });
+    return all.any && !all.several ? all.label : label_t(0);
+  }
+
+  template <int Count>
+  static ap_uint<6> equal_cells(label_t label, const label_t (&cells)[Count]) {
+    ap_uint<6> equal[Count];
+    for (int i = 0; i < Count; ++i) equal[i] = cells[i] == label;
+    return window::reduce(equal, [](ap_uint<6> a, ap_uint<6> b) -> ap_uint<6> { return a + b; });
+  }
+
+  near_window near_;
+  ring_window ring_;
+  window::row_window<place, 1, delay_beats + 1> places_;
+};
+
+}  // namespace epiline::kernels

@@ -1,0 +1,81 @@
+#pragma once
+#include <ap_int.h>
+
+#include "kernels/color.hpp"
+#include "kernels/level_array.hpp"
+#include "window/bits.hpp"
+#include "window/line_buffer.hpp"
+
+namespace epiline::kernels {
+
+/// Vertical half of three SAD windows around one centre: V3, V5 and V7, the sums of a column's absolute differences
+/// over 3, 5 and 7 rows, for every level. With row y the newest, AD(k) the difference k rows above it and
+///   F = AD(2) + AD(3) + AD(4) + AD(5), kept from the row before in block RAM,
+/// four differences and five adders a level make all three:
+///   V3 = F - AD(5),  V5 = F + AD(1),  V7 = V5 + (AD(0) + AD(6)),  next row's F = V3 + AD(1).
+///
+/// Border policy: columns outside the frame are 0. Rows outside are 0 because the caller passes differences of 0 there.
+/// State: the RAM. The first row of a frame does not use it, so it needs no clearing.
+///
+/// Config: levels, pixels_per_beat, max_width.
+template <class Config>
+class nested_column_sum {
+ public:
+  static constexpr int lanes = Config::pixels_per_beat;
+  static constexpr int levels = Config::levels;
+  static constexpr int beats = window::divide_up(Config::max_width, lanes);
+  using differences = level_array<absolute_difference_t, lanes, levels>;
+  template <int Rows>
+  using sums = level_array<ap_uint<window::bits_for(Rows * 255)>, lanes, levels>;
+
+  struct place {
+    int beat;             // of the row, may lie outside the frame
+    bool in_columns;      // the beat lies in the columns of the frame
+    bool lane_in[lanes];  // the lane does, too
+    bool first_row;       // of a frame
+  };
+
+  struct result {
+    sums<3> three;
+    sums<5> five;
+    sums<7> seven;
+  };
+
+  /// `row0` belongs to the newest row, `row1`, `row5` and `row6` to those so many rows above it.
+  /// The same beat may come again after `shortest_row` iterations at the earliest.
+  result step(const differences& row0, const differences& row1, const differences& row5, const differences& row6,
+              const place& at) {
+#pragma HLS INLINE
+#pragma HLS DEPENDENCE variable = four_ type = inter distance = window::shortest_row true
+    result columns;
+    for (int lane = 0; lane < lanes; ++lane) {
+      const int beat = at.beat;
+      const bool lane_in = at.lane_in[lane];
+      four_t four[levels];
+      for (int d = 0; d < levels; ++d) four[d] = 0;
+      if (at.in_columns && !at.first_row) {
+        for (int d = 0; d < levels; ++d) four[d] = four_[beat][lane][d];
+      }
+      for (int d = 0; d < levels; ++d) {
+        const ap_uint<10> three = four[d] - row5.at[lane][d];
+        const ap_uint<11> five = four[d] + row1.at[lane][d];
+        const ap_uint<9> ends = row0.at[lane][d] + row6.at[lane][d];
+        const ap_uint<11> seven = five + ends;
+        four[d] = three + row1.at[lane][d];
+        columns.three.at[lane][d] = lane_in ? three : ap_uint<10>(0);
+        columns.five.at[lane][d] = lane_in ? five : ap_uint<11>(0);
+        columns.seven.at[lane][d] = lane_in ? seven : ap_uint<11>(0);
+      }
+      if (at.in_columns) {
+        for (int d = 0; d < levels; ++d) four_[beat][lane][d] = four[d];
+      }
+    }
+    return columns;
+  }
+
+ private:
+  using four_t = ap_uint<window::bits_for(4 * 255)>;
+  four_t four_[beats][lanes][levels];
+};
+
+}  // namespace epiline::kernels

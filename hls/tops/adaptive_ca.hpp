@@ -1,0 +1,145 @@
+#pragma once
+// Method 1, semi-dense: local variation, adaptive SAD, winner take all, cellular automaton. The whole method is one
+// pixel loop.
+#include <ap_int.h>
+#include <hls_stream.h>
+
+#include "kernels/adaptive_sad.hpp"
+#include "kernels/ca_filter.hpp"
+#include "kernels/candidates.hpp"
+#include "kernels/disparity.hpp"
+#include "kernels/local_variation.hpp"
+#include "kernels/luma.hpp"
+#include "kernels/winner.hpp"
+#include "tops/stereo_interface.hpp"
+#include "window/bits.hpp"
+#include "window/line_buffer.hpp"
+#include "window/raster.hpp"
+
+namespace epiline::tops {
+
+/// The reference configuration; others inherit it and hide what differs.
+struct adaptive_ca_config {
+  static constexpr int max_width = 1024;
+  static constexpr int max_height = 4095;
+  static constexpr int levels = 80;  // at most 128
+  static constexpr int pixels_per_beat = 1;
+};
+
+/// The types of a configuration's interface and its constants of time.
+template <class Config>
+struct adaptive_ca_interface : stereo_interface<Config> {
+  /// How the raster walks over a frame: the windows of the matcher and of the automaton's two rules lie one behind the
+  /// other, the columns between two rows serve them all.
+  struct schedule {
+    static constexpr int maximum_beats = window::divide_up(Config::max_width, Config::pixels_per_beat);
+    static constexpr int maximum_rows = Config::max_height;
+    static constexpr int padding_beats = kernels::adaptive_sad<Config>::delay_beats;
+    static constexpr int padding_rows =
+        kernels::adaptive_sad<Config>::window_radius + kernels::ca_filter<Config>::delay_rows;
+    static constexpr int minimum_row_beats = window::shortest_row;
+    static constexpr int flush_beats = window::larger(kernels::ca_filter<Config>::delay_beats, minimum_row_beats);
+  };
+  using t2_t = ap_uint<8>;
+  using t5_t = ap_uint<12>;
+  using ring_t = ap_uint<6>;
+};
+
+/// One frame of method 1. Preconditions: width 1 .. max_width, height 1 .. max_height, levels 1 .. Config::levels.
+/// `t2` and `t5` are the thresholds of the local variation, `ring` (1 .. 40) that of the automaton's second rule;
+/// without the automaton every pixel keeps its winner.
+template <class Config>
+void adaptive_ca_frame(hls::stream<typename adaptive_ca_interface<Config>::video_beat>& left,
+                       hls::stream<typename adaptive_ca_interface<Config>::video_beat>& right,
+                       hls::stream<typename adaptive_ca_interface<Config>::disparity_beat>& disparity,
+                       typename adaptive_ca_interface<Config>::width_t width,
+                       typename adaptive_ca_interface<Config>::height_t height,
+                       typename adaptive_ca_interface<Config>::levels_t levels,
+                       typename adaptive_ca_interface<Config>::t2_t t2, typename adaptive_ca_interface<Config>::t5_t t5,
+                       ap_uint<1> automaton, typename adaptive_ca_interface<Config>::ring_t ring) {
+#pragma HLS INLINE
+  using namespace kernels;
+  using types = adaptive_ca_interface<Config>;
+  using schedule = typename types::schedule;
+  using frame_raster = window::raster<schedule>;
+  using sad = adaptive_sad<Config>;
+  using rows = luma_rows<Config, sad::window_rows>;
+  using variation_t = local_variation<Config, sad::delay_beats>;
+  using filter_t = ca_filter<Config>;
+  constexpr int lanes = Config::pixels_per_beat;
+  constexpr int radius = sad::window_radius;
+
+  // State lives on from frame to frame: calls follow one another without a bubble, and nothing needs a reset.
+  static rows lines;
+  static variation_t variation;
+  static sad matcher;
+  static filter_t filter;
+
+  const typename frame_raster::beats_t beats = (width + (lanes - 1)) / lanes;
+  frame_raster raster(beats, height);
+  bool more = true;
+  do {
+#pragma HLS PIPELINE II = 1
+    typename rows::beat_t left_pixels = 0;
+    typename rows::beat_t right_pixels = 0;
+    if (raster.in_frame()) {
+      left_pixels = left.read().data;
+      right_pixels = right.read().data;
+    }
+    const auto columns = lines.step(left_pixels, right_pixels, raster.beat(), raster.in_columns());
+
+    typename sad::place at;
+    at.column.beat = raster.beat();
+    at.column.in_columns = raster.in_columns();
+    lanes_inside(raster.beat() * lanes, width, !raster.in_flush(), at.column.lane_in);
+    at.column.first_row = raster.row() == 0;
+    at.row_starts = raster.beat() == 0;
+    for (int k = 0; k < sad::window_rows; ++k) at.row_in[k] = raster.row() >= k;
+
+    // The five rows around the centre, which is `radius` rows above the newest one.
+    luma_t around[variation_t::rows][lanes];
+    typename variation_t::place variation_at;
+    for (int row = 0; row < variation_t::rows; ++row) {
+      const int above = radius + variation_t::rows / 2 - row;
+      for (int lane = 0; lane < lanes; ++lane) around[row][lane] = columns.left[above][lane];
+      variation_at.row_in[row] = raster.row() >= above && raster.row() < height + above;
+    }
+    for (int lane = 0; lane < lanes; ++lane) variation_at.lane_in[lane] = at.column.lane_in[lane];
+    variation_at.row_starts = at.row_starts;
+    variation.step(around, variation_at);
+    window_choice_t choice[lanes];
+    for (int lane = 0; lane < lanes; ++lane) choice[lane] = variation.choice(lane, t2, t5);
+
+    const auto all_costs = matcher.step(columns.left, columns.right, at, choice);
+
+    // The pixel the costs belong to lies half a window above and left of the newest one.
+    const bool centre_in_rows = raster.row() >= radius && raster.row() < height + radius && !raster.in_flush();
+    const bool centre_started = raster.beat() >= schedule::padding_beats;
+    const typename frame_raster::beat_t centre_beat = raster.beat() - schedule::padding_beats;
+    const ap_uint<window::bits_for(frame_raster::longest_row * lanes)> centre_x = centre_beat * lanes;
+    bool column_in[lanes];
+    lanes_inside(centre_x, width, centre_started && !raster.in_flush(), column_in);
+    bool pixel_in[lanes];
+    for (int lane = 0; lane < lanes; ++lane) pixel_in[lane] = centre_in_rows && column_in[lane];
+    const auto costs = candidate_mask<Config, typename sad::costs>::step(all_costs, centre_x, pixel_in, levels);
+
+    disparity_pixel winner[lanes];
+    typename sad::cost_t lowest[lanes];
+    pick_winners(costs, pixel_in, winner, lowest);
+
+    // The automaton's result lies further above; what its beat means is known here already.
+    typename filter_t::place filter_at;
+    filter_at.beat = centre_beat;
+    filter_at.in_columns = column_in[0];
+    const bool result_in_rows = raster.row() >= schedule::padding_rows;
+    for (int lane = 0; lane < lanes; ++lane) filter_at.in_frame[lane] = result_in_rows && column_in[lane];
+    filter_at.marks.in_frame = filter_at.in_frame[0];
+    filter_at.marks.first_beat = raster.row() == schedule::padding_rows && centre_beat == 0;
+    filter_at.marks.last_of_row = centre_beat == beats - 1;
+    const auto found = filter.step(winner, filter_at, automaton, ring);
+    if (found.marks.in_frame) disparity.write(output_beat<Config>(found));
+    more = raster.advance();
+  } while (more);
+}
+
+}  // namespace epiline::tops
