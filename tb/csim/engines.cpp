@@ -3,50 +3,80 @@
 #include <chrono>
 
 #include "csim/native_top.hpp"
+#include "tops/adaptive_ca.hpp"
 #include "tops/color_fuzzy.hpp"
 
-// The top itself, from hls/tops/color_fuzzy.cpp; tops that only the compiler calls need no declaration in a header.
-void color_fuzzy(
-    hls::stream<epiline::tops::color_fuzzy_interface<epiline::tops::color_fuzzy_config>::video_beat>& left,
-    hls::stream<epiline::tops::color_fuzzy_interface<epiline::tops::color_fuzzy_config>::video_beat>& right,
-    hls::stream<epiline::tops::color_fuzzy_interface<epiline::tops::color_fuzzy_config>::disparity_beat>& disparity,
-    epiline::tops::color_fuzzy_interface<epiline::tops::color_fuzzy_config>::width_t width,
-    epiline::tops::color_fuzzy_interface<epiline::tops::color_fuzzy_config>::height_t height,
-    epiline::tops::color_fuzzy_interface<epiline::tops::color_fuzzy_config>::levels_t levels, ap_uint<1> left_right,
-    ap_uint<5> uniqueness, ap_uint<2> fuzzy, ap_uint<1> careful_fill);
+namespace {
+using color_fuzzy_types = epiline::tops::color_fuzzy_interface<epiline::tops::color_fuzzy_config>;
+using adaptive_ca_types = epiline::tops::adaptive_ca_interface<epiline::tops::adaptive_ca_config>;
+}  // namespace
+
+// The tops themselves, from hls/tops/*.cpp; tops that only the compiler calls need no declaration in a header.
+void color_fuzzy(hls::stream<color_fuzzy_types::video_beat>& left, hls::stream<color_fuzzy_types::video_beat>& right,
+                 hls::stream<color_fuzzy_types::disparity_beat>& disparity, color_fuzzy_types::width_t width,
+                 color_fuzzy_types::height_t height, color_fuzzy_types::levels_t levels, ap_uint<1> left_right,
+                 ap_uint<5> uniqueness, ap_uint<2> fuzzy, ap_uint<1> careful_fill);
+void adaptive_ca(hls::stream<adaptive_ca_types::video_beat>& left, hls::stream<adaptive_ca_types::video_beat>& right,
+                 hls::stream<adaptive_ca_types::disparity_beat>& disparity, adaptive_ca_types::width_t width,
+                 adaptive_ca_types::height_t height, adaptive_ca_types::levels_t levels, adaptive_ca_types::t2_t t2,
+                 adaptive_ca_types::t5_t t5, ap_uint<1> automaton, adaptive_ca_types::ring_t ring);
 
 namespace epiline::csim {
 namespace {
 
-class color_fuzzy_engine final : public eval::engine {
+/// Runs a top on one frame; `call` passes the request's parameters on. Types: the top's interface.
+template <class Types>
+using top_call = void (*)(const eval::match_request& request, hls::stream<typename Types::video_beat>& left,
+                          hls::stream<typename Types::video_beat>& right,
+                          hls::stream<typename Types::disparity_beat>& disparity);
+
+template <class Config, class Types>
+class native_engine final : public eval::engine {
  public:
-  explicit color_fuzzy_engine(const eval::design_description& design) {
-    using config = tops::color_fuzzy_config;
-    if (design.max_width != config::max_width || design.max_height != config::max_height ||
-        design.max_levels != config::levels || design.pixels_per_beat != config::pixels_per_beat) {
-      throw std::logic_error("the table of designs does not describe hls/tops/color_fuzzy.cpp");
+  native_engine(const eval::design_description& design, top_call<Types> call) : call_(call) {
+    if (design.max_width != Config::max_width || design.max_height != Config::max_height ||
+        design.max_levels != Config::levels || design.pixels_per_beat != Config::pixels_per_beat) {
+      throw std::logic_error("the table of designs does not describe hls/tops/" + std::string(design.name) + ".cpp");
     }
   }
 
   eval::match_result match(const eval::match_request& request, const eval::run_options& /*options*/) override {
-    using types = tops::color_fuzzy_interface<tops::color_fuzzy_config>;
-    const auto parameter = [&](const char* name) { return request.parameters.at(name); };
     const auto start = std::chrono::steady_clock::now();
     eval::match_result result;
-    result.map = run_native_top<types>(request.left, request.right, [&](auto& left, auto& right, auto& disparity) {
-      color_fuzzy(left, right, disparity, request.left.width, request.left.height, request.levels,
-                  parameter("left_right"), parameter("uniqueness"), parameter("fuzzy"), parameter("careful_fill"));
+    result.map = run_native_top<Types>(request.left, request.right, [&](auto& left, auto& right, auto& disparity) {
+      call_(request, left, right, disparity);
     });
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
   }
+
+ private:
+  top_call<Types> call_;
 };
+
+template <class Config, class Types>
+void add(eval::engine_registry& registry, const char* design, top_call<Types> call) {
+  registry.add({design, "native", "the hardware's C++ source, run as a program",
+                [call](const eval::design_description& description) {
+                  return std::make_unique<native_engine<Config, Types>>(description, call);
+                }});
+}
 
 }  // namespace
 
 void register_engines(eval::engine_registry& registry) {
-  registry.add({"color_fuzzy", "native", "the hardware's C++ source, run as a program",
-                [](const eval::design_description& design) { return std::make_unique<color_fuzzy_engine>(design); }});
+  add<tops::color_fuzzy_config, color_fuzzy_types>(
+      registry, "color_fuzzy", [](const eval::match_request& request, auto& left, auto& right, auto& disparity) {
+        const auto& with = request.parameters;
+        color_fuzzy(left, right, disparity, request.left.width, request.left.height, request.levels,
+                    with.at("left_right"), with.at("uniqueness"), with.at("fuzzy"), with.at("careful_fill"));
+      });
+  add<tops::adaptive_ca_config, adaptive_ca_types>(
+      registry, "adaptive_ca", [](const eval::match_request& request, auto& left, auto& right, auto& disparity) {
+        const auto& with = request.parameters;
+        adaptive_ca(left, right, disparity, request.left.width, request.left.height, request.levels, with.at("t2"),
+                    with.at("t5"), with.at("automaton"), with.at("ring"));
+      });
 }
 
 }  // namespace epiline::csim
