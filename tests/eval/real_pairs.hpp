@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "eval/designs.hpp"
 #include "eval/image_files.hpp"
 #include "eval/metrics.hpp"
 
@@ -83,13 +84,20 @@ inline eval::disparity_map read_reference_map(const std::filesystem::path& file)
   return map;
 }
 
+/// A reference map and how to get it.
 struct reference_case {
-  const char* map;
-  int left_right;
-  int uniqueness;
-  int fuzzy;
+  const char* design;
+  const char* map;                 // stem of its file, name in figures.json
+  eval::parameter_values changed;  // parameters that do not have their default
 };
-inline constexpr reference_case color_fuzzy_references[] = {
-    {"color_fuzzy-raw", 0, 0, 0}, {"color_fuzzy-confident", 1, 17, 0}, {"color_fuzzy", 1, 17, 2}};
+inline const reference_case reference_cases[] = {
+    {"color_fuzzy", "color_fuzzy-raw", {{"left_right", 0}, {"uniqueness", 0}, {"fuzzy", 0}}},
+    {"color_fuzzy", "color_fuzzy-confident", {{"fuzzy", 0}}},
+    {"color_fuzzy", "color_fuzzy", {}},
+    {"adaptive_ca", "adaptive_ca-off", {{"automaton", 0}}},
+    {"adaptive_ca", "adaptive_ca-r1", {{"ring", 1}}},
+    {"adaptive_ca", "adaptive_ca-r20", {{"ring", 20}}},
+    {"adaptive_ca", "adaptive_ca-r24", {}},
+};
 
 }  // namespace epiline::test

@@ -1,4 +1,4 @@
-// The reference model and the native top on the shared pairs at full size, against maps and counts of an independent
+// The reference models and the native tops on the shared pairs at full size, against maps and counts of an independent
 // prototype.
 
 #include "eval/real_pairs.hpp"
@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "csim/engines.hpp"
+#include "golden/adaptive_ca.hpp"
 #include "golden/engines.hpp"
+#include "golden/streaming_automaton.hpp"
 
 namespace epiline::test {
 namespace {
@@ -19,18 +21,16 @@ TEST_P(real_pairs, golden_and_native_give_the_reference_maps_and_counts) {
   eval::engine_registry registry;
   golden::register_engines(registry);
   csim::register_engines(registry);
-  const auto& design = *eval::find_design("color_fuzzy");
 
-  for (const auto& expected : color_fuzzy_references) {
+  for (const auto& expected : reference_cases) {
     SCOPED_TRACE(expected.map);
+    const auto& design = *eval::find_design(expected.design);
     eval::match_request request{pair->left, pair->right, pair->levels, eval::default_parameters(design)};
-    request.parameters["left_right"] = expected.left_right;
-    request.parameters["uniqueness"] = expected.uniqueness;
-    request.parameters["fuzzy"] = expected.fuzzy;
+    for (const auto& [name, value] : expected.changed) request.parameters[name] = value;
     const auto reference = read_reference_map(pair->reference / (std::string(expected.map) + ".png"));
-    for (const char* engine : {"golden", "native"}) {
-      const auto result = registry.find("color_fuzzy", engine)->make(design)->match(request, {});
-      EXPECT_EQ(eval::compare(reference, result.map).differing, 0u) << engine;
+    for (const auto* engine : registry.engines_of(design.name)) {
+      const auto result = engine->make(design)->match(request, {});
+      EXPECT_EQ(eval::compare(reference, result.map).differing, 0u) << engine->name;
     }
 
     const auto& counts = pair->figures.at(expected.map);
@@ -41,12 +41,12 @@ TEST_P(real_pairs, golden_and_native_give_the_reference_maps_and_counts) {
     EXPECT_NEAR(figures.coverage(), counts.at("coverage"), 0.005);
     ASSERT_EQ(figures.non_occluded.has_value(), counts.contains("nonocc_known"));
 
-    // The prototype read Motorcycle's PFM through OpenCV, which divides by the scale 0.003922 of the header, and took
-    // that for 1/255: its truth is 1/10000 too small, which moves a few disparities across the threshold. With plain
-    // values the count is slightly higher.
+    // The prototype read Motorcycle's PFM through OpenCV, which divides by the scale 0.003922 of the header, and
+    // multiplied by 1/255 = 0.00392157 again: its truth is 1/10000 too small, which moves a few disparities across the
+    // threshold. With plain values the count is slightly higher.
     eval::ground_truth as_prototype = pair->truth;
     if (std::string(GetParam()) == "motorcycle") {
-      for (double& value : as_prototype.disparity.values) value /= 0.003922 * 255;
+      for (double& value : as_prototype.disparity.values) value *= 0.00392157 / 0.003922;
     }
     const eval::map_figures prototype = eval::measure(reference, &as_prototype);
     EXPECT_EQ(prototype.all->correct, counts.at("correct"));
@@ -56,6 +56,22 @@ TEST_P(real_pairs, golden_and_native_give_the_reference_maps_and_counts) {
       EXPECT_EQ(figures.non_occluded->defined, counts.at("nonocc_defined"));
       EXPECT_EQ(prototype.non_occluded->correct, counts.at("nonocc_correct"));
     }
+  }
+}
+
+TEST_P(real_pairs, the_automaton_on_planes_equals_its_streaming_form) {
+  const auto pair = find_real_pair(GetParam());
+  if (!pair) GTEST_SKIP() << GetParam() << " and its reference maps are not on this machine (EPILINE_DATA)";
+  const auto stored = read_reference_map(pair->reference / "adaptive_ca-off.png");
+  golden::disparity_plane map{golden::plane<std::uint8_t>::Zero(stored.height, stored.width),
+                              golden::plane<bool>::Constant(stored.height, stored.width, true)};
+  std::copy(stored.disparity.begin(), stored.disparity.end(), map.disparity.data());
+  const auto after_rule_1 = golden::automaton_rule_1(map, pair->levels);
+  branch_counts branches;
+  for (const int ring : {1, 20, 24, 40}) {
+    const auto planes = golden::automaton_rule_2(after_rule_1, pair->levels, ring);
+    const auto streamed = streaming_automaton(map, branches).filter(ring);
+    EXPECT_EQ((planes.disparity != streamed.disparity || planes.defined != streamed.defined).count(), 0) << ring;
   }
 }
 
