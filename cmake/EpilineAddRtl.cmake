@@ -1,10 +1,11 @@
 # From a C++ top to a linkable simulation model of its Verilog, at build time.
 #
 # epiline_add_rtl(TARGET TOP top SOURCE file.cpp [CLOCK 6ns] [TARGET ecp5] [DEFINES NAME=VALUE..] [INCLUDES folder..]
-#                 [OPTIONS option..])
+#                 [OPTIONS option..] [AXI_LITE])
 #   Runs epiline-hls into <binary dir>/TARGET.rtl (top.v, top.graph, report.json, report.txt), then does what
 #   epiline_add_verilog_model does. The folder is TARGET's property EPILINE_RTL_FOLDER. INCLUDES come beside hls/types, which
-#   epiline-hls knows. OPTIONS are passed to epiline-hls as they are.
+#   epiline-hls knows. OPTIONS are passed to epiline-hls as they are. AXI_LITE puts the top's scalar arguments into
+#   registers; the folder then holds top_registers.h, top_registers.json and top_registers.md, too.
 #
 # epiline_add_verilog_model(TARGET TOP module VERILOG file.v.. REPORT report.json [DEPENDS ..] [NO_LINT])
 #   Runs Verilator and compiles the model. TARGET is a static library; "TARGET_model.hpp" declares
@@ -40,13 +41,25 @@ if(NOT TARGET epiline_verilated)
   target_link_libraries(epiline_verilated PUBLIC Threads::Threads)
 endif()
 
-function(epiline_add_verilog_model target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "NO_LINT" "TOP;REPORT" "VERILOG;DEPENDS")
-  foreach(required TOP REPORT VERILOG)
-    if(NOT arg_${required})
-      message(FATAL_ERROR "epiline_add_verilog_model(${target}): ${required} is missing")
+# Ends with one clear error when a function's parsed arguments (arg_*) are incomplete or more than it knows. To be called
+# from a function of this file, with the names of the arguments it cannot do without.
+macro(epiline_check_arguments)
+  foreach(epiline_required ${ARGN})
+    if(NOT arg_${epiline_required})
+      message(FATAL_ERROR "${CMAKE_CURRENT_FUNCTION}(${target}): ${epiline_required} is missing")
     endif()
   endforeach()
+  if(arg_KEYWORDS_MISSING_VALUES)
+    message(FATAL_ERROR "${CMAKE_CURRENT_FUNCTION}(${target}): no value after ${arg_KEYWORDS_MISSING_VALUES}")
+  endif()
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "${CMAKE_CURRENT_FUNCTION}(${target}): unknown argument ${arg_UNPARSED_ARGUMENTS}")
+  endif()
+endmacro()
+
+function(epiline_add_verilog_model target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "NO_LINT" "TOP;REPORT" "VERILOG;DEPENDS")
+  epiline_check_arguments(TOP REPORT VERILOG)
 
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}.model)
   set(make_model ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../tb/cosim/make_model.py)
@@ -85,12 +98,8 @@ function(epiline_add_verilog_model target)
 endfunction()
 
 function(epiline_add_rtl target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TOP;SOURCE;CLOCK;TARGET" "DEFINES;INCLUDES;OPTIONS")
-  foreach(required TOP SOURCE)
-    if(NOT arg_${required})
-      message(FATAL_ERROR "epiline_add_rtl(${target}): ${required} is missing")
-    endif()
-  endforeach()
+  cmake_parse_arguments(PARSE_ARGV 1 arg "AXI_LITE" "TOP;SOURCE;CLOCK;TARGET" "DEFINES;INCLUDES;OPTIONS")
+  epiline_check_arguments(TOP SOURCE)
   if(NOT arg_CLOCK)
     set(arg_CLOCK 6ns)
   endif()
@@ -104,6 +113,13 @@ function(epiline_add_rtl target)
   # Written to a folder of its own first: a compiler that was rebuilt but writes the same Verilog costs no new model.
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}.rtl)
   set(names ${arg_TOP}.v ${arg_TOP}.graph report.json report.txt)
+  if(arg_AXI_LITE)
+    list(APPEND arg_OPTIONS --axi-lite)
+    list(APPEND names ${arg_TOP}_registers.h ${arg_TOP}_registers.json ${arg_TOP}_registers.md)
+  elseif("--axi-lite" IN_LIST arg_OPTIONS)
+    message(FATAL_ERROR "epiline_add_rtl(${target}): write AXI_LITE instead of OPTIONS --axi-lite, which leaves the register "
+                        "map's files out")
+  endif()
   list(TRANSFORM names PREPEND ${folder}.fresh/ OUTPUT_VARIABLE fresh_files)
   list(TRANSFORM names PREPEND ${folder}/ OUTPUT_VARIABLE files)
   add_custom_command(
@@ -129,11 +145,7 @@ endfunction()
 
 function(epiline_add_netlist_model target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "TOP;VERILOG;REPORT" "DEPENDS")
-  foreach(required TOP REPORT VERILOG)
-    if(NOT arg_${required})
-      message(FATAL_ERROR "epiline_add_netlist_model(${target}): ${required} is missing")
-    endif()
-  endforeach()
+  epiline_check_arguments(TOP REPORT VERILOG)
   set(root ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/..)
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}.netlist)
   set(netlist ${folder}/${arg_TOP}_netlist.v)
@@ -141,6 +153,7 @@ function(epiline_add_netlist_model target)
     OUTPUT ${netlist} ${folder}/resources.json
     COMMAND ${root}/scripts/synthesize.sh ${arg_VERILOG} ${arg_TOP} -o ${folder}
     DEPENDS ${arg_VERILOG} ${arg_DEPENDS} ${root}/scripts/synthesize.sh
+            ${root}/scripts/ecp5_operators.v
             ${root}/scripts/netlist_resources.py
     COMMENT "Synthesizing ${arg_TOP} of ${target}"
     VERBATIM)
@@ -154,6 +167,7 @@ endfunction()
 
 function(epiline_add_netlist_library target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "RTL" "")
+  epiline_check_arguments(RTL)
   get_target_property(folder ${arg_RTL} EPILINE_RTL_FOLDER)
   get_target_property(top ${arg_RTL} EPILINE_RTL_TOP)
   epiline_add_netlist_model(${target} TOP ${top} VERILOG ${folder}/${top}.v REPORT ${folder}/report.json)

@@ -62,7 +62,7 @@ struct sink {
 class session {
  public:
   session(rtl_model& model, const drive_request& request, const drive_options& options)
-      : model_(model), options_(options) {
+      : model_(model), request_(request), options_(options) {
     check_names(request);
     std::seed_seq seeds{static_cast<std::uint32_t>(options.seed), static_cast<std::uint32_t>(options.seed >> 32)};
     std::vector<std::uint32_t> port_seeds(model.ports().size());
@@ -164,7 +164,7 @@ class session {
   bool one_clock() {
     for (source& from : sources_) {
       const bool pauses = from.stall.pauses();
-      if (!from.offered && from.tokens != nullptr && from.next < from.tokens->size() && !pauses) {
+      if (!from.offered && from.tokens != nullptr && from.next < from.tokens->size() && !pauses && may_offer(from)) {
         model_.set_token(from.port, (*from.tokens)[from.next].data());
         model_.set_valid(from.port, true);
         from.offered = true;
@@ -193,6 +193,10 @@ class session {
       moved = true;
     }
     return moved;
+  }
+
+  [[nodiscard]] bool may_offer(const source& from) const {
+    return !request_.may_offer || request_.may_offer(model_.ports()[from.port].name, from.next, result_);
   }
 
   /// Checks the rules at an output and takes its token. Returns whether there was one.
@@ -305,6 +309,7 @@ class session {
   }
 
   rtl_model& model_;
+  const drive_request& request_;
   const drive_options& options_;
   std::vector<source> sources_;
   std::vector<sink> sinks_;

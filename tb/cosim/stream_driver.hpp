@@ -36,13 +36,6 @@ struct drive_options {
   std::function<void(double)> progress;
 };
 
-struct drive_request {
-  /// By name of an input port; an input port that is not named gets no token.
-  std::map<std::string, token_list> inputs;
-  /// Tokens each output port is to send; from a port that is not named any number is taken.
-  std::map<std::string, std::size_t> expected;
-};
-
 /// What passed through one port. `clocks[i]` is the clock (0 = the first after reset) in which token i was accepted.
 struct port_record {
   token_list tokens;
@@ -58,6 +51,16 @@ struct drive_result {
   /// Clocks from the first token accepted at any input to the last token at any output, both counted; 0 when nothing
   /// moved.
   [[nodiscard]] std::uint64_t busy_clocks() const;
+};
+
+struct drive_request {
+  /// By name of an input port; an input port that is not named gets no token.
+  std::map<std::string, token_list> inputs;
+  /// Tokens each output port is to send; from a port that is not named any number is taken.
+  std::map<std::string, std::size_t> expected;
+  /// Asked before input `port` offers its token `index`, with what has passed so far; false: not yet. This is how ports
+  /// that have to do with each other (a parameter's write, and the frame it is for) keep their order. May be empty.
+  std::function<bool(const std::string& port, std::size_t index, const drive_result& so_far)> may_offer = {};
 };
 
 /// The module, or the request, is wrong. what() names the port, the clock and the seed.

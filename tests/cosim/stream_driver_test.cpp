@@ -132,6 +132,34 @@ TEST(stream_driver, same_seed_same_clocks_and_another_seed_others) {
   EXPECT_NE(clocks_of(5), clocks_of(6));
 }
 
+TEST(stream_driver, offers_a_token_only_when_the_request_lets_it) {
+  const std::unique_ptr<rtl_model> model = make_faulty_adder_model(1);
+  scenario wanted = make_scenario(no_fault, 1, 30);
+  wanted.request.may_offer = [](const std::string& port, std::size_t index, const drive_result& so_far) {
+    return port != "left" || so_far.outputs.at("out").tokens.size() >= index;
+  };
+  const drive_result result = drive(*model, wanted.request, stalled(4, 0, 50, 25));
+  EXPECT_EQ(result.outputs.at("out").tokens, wanted.sums);
+  for (std::size_t index = 1; index < 30; ++index) {
+    EXPECT_GT(result.inputs.at("left").clocks[index], result.outputs.at("out").clocks[index - 1]) << "token " << index;
+  }
+}
+
+TEST(stream_driver, a_token_that_is_never_let_go_is_a_deadlock) {
+  const std::unique_ptr<rtl_model> model = make_faulty_adder_model(1);
+  drive_request request = make_scenario(no_fault, 1, 30).request;
+  request.may_offer = [](const std::string& port, std::size_t index, const drive_result&) {
+    return port != "left" || index < 7;
+  };
+  try {
+    static_cast<void>(drive(*model, request, stalled(1, 0, 0, 0)));
+    ADD_FAILURE() << "nothing was noticed";
+  } catch (const drive_error& error) {
+    EXPECT_EQ(error.why(), drive_error::reason::deadlock);
+    EXPECT_THAT(error.what(), HasSubstr("input 'left': 7 of 30 tokens accepted"));
+  }
+}
+
 TEST(stream_driver, reports_progress) {
   const std::unique_ptr<rtl_model> model = make_faulty_adder_model(1);
   drive_options options = stalled(1, 90, 90, 0);
