@@ -13,4 +13,8 @@ void add_match_command(CLI::App& application, const engine_registry& registry);
 /// `epiline compare`: several engines on one pair, compared bit for bit. `exit_code` becomes 1 when maps differ.
 void add_compare_command(CLI::App& application, const engine_registry& registry, int& exit_code);
 
+/// `epiline evaluate`: designs and OpenCV's matchers on a list of pairs, as a page and files of figures. `exit_code`
+/// becomes 1 when a pair or a map could not be evaluated.
+void add_evaluate_command(CLI::App& application, const engine_registry& registry, int& exit_code);
+
 }  // namespace epiline::eval

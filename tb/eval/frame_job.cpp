@@ -67,16 +67,6 @@ std::optional<ground_truth> read_ground_truth(const job_options& options, const 
   return truth;
 }
 
-void add_counts(nlohmann::ordered_json& json, const std::string& prefix, const accuracy_counts& counts) {
-  json[prefix + "correct"] = counts.correct;
-  json[prefix + "accuracy"] = counts.accuracy();
-  json[prefix + "bad_0.5"] = counts.bad_half_share();
-  json[prefix + "bad_1"] = counts.bad_one_share();
-  json[prefix + "bad_2"] = counts.bad_two_share();
-  json[prefix + "bad_1_or_undefined"] = counts.bad_one_undefined_share();
-  json[prefix + "average_error"] = counts.average_error();
-}
-
 }  // namespace
 
 void job_options::add_to(CLI::App& command) {
@@ -187,25 +177,6 @@ nlohmann::ordered_json timing_json(const frame_job& job, const match_result& res
     json["cycles"] = *result.cycles;
     json["cycles_per_pixel"] = static_cast<double>(*result.cycles) / job.request.left.width / job.request.left.height;
     if (result.seconds > 0) json["cycles_per_second"] = static_cast<double>(*result.cycles) / result.seconds;
-  }
-  return json;
-}
-
-nlohmann::ordered_json figures_json(const map_figures& figures) {
-  nlohmann::ordered_json json;
-  json["pixels"] = figures.pixels;
-  json["defined"] = figures.defined;
-  json["coverage"] = figures.coverage();
-  if (figures.all) {
-    json["known"] = figures.all->known;
-    json["known_and_defined"] = figures.all->defined;
-    add_counts(json, "", *figures.all);
-  }
-  if (figures.non_occluded) {
-    json["nonocc_known"] = figures.non_occluded->known;
-    json["nonocc_defined"] = figures.non_occluded->defined;
-    json["nonocc_coverage"] = figures.non_occluded->coverage();
-    add_counts(json, "nonocc_", *figures.non_occluded);
   }
   return json;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "eval/engine.hpp"
+#include "eval/figures_json.hpp"
 #include "eval/metrics.hpp"
 
 namespace epiline::eval {
@@ -66,9 +67,6 @@ void write_outputs(const job_options& options, const frame_job& job, const dispa
 
 /// Seconds, and cycles where the engine counts them.
 [[nodiscard]] nlohmann::ordered_json timing_json(const frame_job& job, const match_result& result);
-
-/// The counts and shares of `figures`, flat, in per cent.
-[[nodiscard]] nlohmann::ordered_json figures_json(const map_figures& figures);
 
 /// One or more lines for people.
 [[nodiscard]] std::string figures_text(const map_figures& figures);

@@ -55,6 +55,7 @@ int main(int argc, char** argv) {
     int exit_code = 0;
     epiline::eval::add_match_command(application, registry);
     epiline::eval::add_compare_command(application, registry, exit_code);
+    epiline::eval::add_evaluate_command(application, registry, exit_code);
     try {
       if (argc > 1 && argv[1][0] != '-') require_known_subcommand(application, argv[1]);
       application.parse(argc, argv);
