@@ -12,7 +12,7 @@
 namespace epiline::emit {
 
 struct report_options {
-  delay_line_limits delay_lines;                    // the same as for the Verilog
+  delay_line_limits delay_lines = {};               // the same as for the Verilog
   bool axi_lite = false;                            // likewise
   nlohmann::json passes = nlohmann::json::array();  // statistics of the passes, as the caller has them
 };
