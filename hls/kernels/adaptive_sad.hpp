@@ -58,11 +58,12 @@ class adaptive_sad {
     const auto cost7 = rows7_.step(columns.seven);
     costs result;
     for (int lane = 0; lane < lanes; ++lane) {
-      const bool small = choice[lane] == window_3x3;
-      const bool middle = choice[lane] == window_5x5;
-      for (int d = 0; d < levels; ++d) {
-        const cost_t larger = middle ? cost_t(cost5.at[lane][d]) : cost7.at[lane][d];
-        result.at[lane][d] = small ? cost_t(cost3.at[lane][d]) : larger;
+      for (int d = 0; d < levels; ++d) result.at[lane][d] = cost7.at[lane][d];
+      if (choice[lane] == window_5x5) {
+        for (int d = 0; d < levels; ++d) result.at[lane][d] = cost5.at[lane][d];
+      }
+      if (choice[lane] == window_3x3) {
+        for (int d = 0; d < levels; ++d) result.at[lane][d] = cost3.at[lane][d];
       }
     }
     return result;

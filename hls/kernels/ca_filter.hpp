@@ -122,6 +122,7 @@ class ca_filter {
 
  private:
   static constexpr int defined = 0x80;
+  using count_t = ap_uint<8>;  // 0 .. 40; as wide as the labels, which keeps native vectors full
 
   /// A level set in 7 of 8 neighbours is set in one of any two of them.
   static label_t rule1(const near_window& labels, int lane) {
@@ -183,11 +184,20 @@ class ca_filter {
     return all.any && !all.several ? all.label : label_t(0);
   }
 
-  template <int Count>
-  static ap_uint<6> equal_cells(label_t label, const label_t (&cells)[Count]) {
-    ap_uint<6> equal[Count];
-    for (int i = 0; i < Count; ++i) equal[i] = cells[i] == label;
-    return window::reduce(equal, [](ap_uint<6> a, ap_uint<6> b) -> ap_uint<6> { return a + b; });
+  /// How many of cells[First .. First + Count - 1] equal the label: a tree whose leaves keep their order in memory,
+  /// which natively becomes one comparison of vectors.
+  template <int First, int Count, int Size>
+  static count_t equal_cells_of(label_t label, const label_t (&cells)[Size]) {
+    if constexpr (Count == 1) {
+      return cells[First] == label;
+    } else {
+      constexpr int half = Count / 2;
+      return equal_cells_of<First, half>(label, cells) + equal_cells_of<First + half, Count - half>(label, cells);
+    }
+  }
+  template <int Size>
+  static count_t equal_cells(label_t label, const label_t (&cells)[Size]) {
+    return equal_cells_of<0, Size>(label, cells);
   }
 
   near_window near_;

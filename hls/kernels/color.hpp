@@ -29,7 +29,7 @@ using color_difference_t = ap_uint<10>;
 /// negating.
 inline absolute_difference_t absolute_difference(ap_uint<8> a, ap_uint<8> b) {
   const ap_int<9> difference = a - b;
-  return difference < 0 ? ap_int<9>(-difference) : difference;
+  return difference < 0 ? absolute_difference_t(-difference) : absolute_difference_t(difference);
 }
 
 /// The newest `Length` pixels of a row, one window a channel, so that a level's differences lie side by side in memory.

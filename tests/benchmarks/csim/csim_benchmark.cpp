@@ -1,6 +1,6 @@
-// Native C-simulation of method 2 at 640x480, 80 levels, one thread, beside OpenCV's matchers on the same pair in the
-// same run. The pair is a textured scene with three depths, made here, so the figures need no data. Rates are frames
-// per second of processor time; `ratio_to_sgbm` is the kernels' rate over StereoSGBM's.
+// Native C-simulation of methods 1 and 2 at 640x480, 80 levels, one thread, beside OpenCV's matchers on the same pair
+// in the same run. The pair is a textured scene with three depths, made here, so the figures need no data. Rates are
+// frames per second of processor time; `ratio_to_sgbm` is the kernels' rate over StereoSGBM's.
 #include <benchmark/benchmark.h>
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
+#include "tops/adaptive_ca.hpp"
 #include "tops/color_fuzzy.hpp"
 
 namespace {
@@ -49,9 +50,10 @@ const scene& shared_scene() {
   return made;
 }
 
-using config = epiline::tops::color_fuzzy_config;
-using types = epiline::tops::color_fuzzy_interface<config>;
-static_assert(config::levels == levels);
+using color_fuzzy_config = epiline::tops::color_fuzzy_config;
+using adaptive_ca_config = epiline::tops::adaptive_ca_config;
+static_assert(color_fuzzy_config::levels == levels && adaptive_ca_config::levels == levels);
+using types = epiline::tops::stereo_interface<color_fuzzy_config>;  // method 1's beats are the same
 
 void fill(hls::stream<types::video_beat>& stream, const cv::Mat& image) {
   for (auto it = image.begin<cv::Vec3b>(); it != image.end<cv::Vec3b>(); ++it) {
@@ -64,8 +66,9 @@ void fill(hls::stream<types::video_beat>& stream, const cv::Mat& image) {
 /// Frames per second of processor time of the benchmark that ran before, for the ratio.
 double sgbm_seconds_a_frame = 0;
 
-void color_fuzzy_native(benchmark::State& state) {
-  const bool whole_method = state.range(0) != 0;
+/// Times `top(left, right, disparity)` on the scene, frame by frame.
+template <class Top>
+void run_native(benchmark::State& state, Top top) {
   hls::stream<types::video_beat> left("left");
   hls::stream<types::video_beat> right("right");
   hls::stream<types::disparity_beat> disparity("disparity");
@@ -75,8 +78,7 @@ void color_fuzzy_native(benchmark::State& state) {
     fill(left, images.left);
     fill(right, images.right);
     const std::clock_t begin = std::clock();
-    epiline::tops::color_fuzzy_frame<config>(left, right, disparity, width, height, levels, whole_method,
-                                             whole_method ? 17 : 0, whole_method ? 2 : 0, 0);
+    top(left, right, disparity);
     const double frame_seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     state.SetIterationTime(frame_seconds);
     seconds += frame_seconds;
@@ -85,6 +87,22 @@ void color_fuzzy_native(benchmark::State& state) {
   const auto frames = static_cast<double>(state.iterations());
   state.counters["frames/s"] = frames / seconds;
   if (sgbm_seconds_a_frame > 0) state.counters["ratio_to_sgbm"] = sgbm_seconds_a_frame * frames / seconds;
+}
+
+void color_fuzzy_native(benchmark::State& state) {
+  const bool whole_method = state.range(0) != 0;
+  run_native(state, [whole_method](auto& left, auto& right, auto& disparity) {
+    epiline::tops::color_fuzzy_frame<color_fuzzy_config>(left, right, disparity, width, height, levels, whole_method,
+                                                         whole_method ? 17 : 0, whole_method ? 2 : 0, 0);
+  });
+}
+
+void adaptive_ca_native(benchmark::State& state) {
+  const bool automaton = state.range(0) != 0;
+  run_native(state, [automaton](auto& left, auto& right, auto& disparity) {
+    epiline::tops::adaptive_ca_frame<adaptive_ca_config>(left, right, disparity, width, height, levels, 32, 100,
+                                                         automaton, 24);
+  });
 }
 
 void match_with(benchmark::State& state, cv::StereoMatcher& matcher, bool grey, double* seconds_a_frame) {
@@ -129,6 +147,7 @@ BENCHMARK(opencv_sgbm)
     ->Arg(cv::StereoSGBM::MODE_HH)
     ->Arg(cv::StereoSGBM::MODE_SGBM);
 BENCHMARK(color_fuzzy_native)->UseManualTime()->Unit(benchmark::kMillisecond)->ArgName("whole_method")->Arg(0)->Arg(1);
+BENCHMARK(adaptive_ca_native)->UseManualTime()->Unit(benchmark::kMillisecond)->ArgName("automaton")->Arg(0)->Arg(1);
 
 }  // namespace
 
