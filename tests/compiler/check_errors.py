@@ -37,6 +37,8 @@ COMMAND_LINES = [
     ("clock nan", ["{source}", "--top", "fir", "--clock", "nanns", "-o", "{out}"], r"nanns"),
     ("unknown target", ["{source}", "--top", "fir", "--target", "abacus", "-o", "{out}"], r"abacus.*ecp5"),
     ("unknown option", ["{source}", "--top", "fir", "--frobnicate", "-o", "{out}"], r"--frobnicate"),
+    ("registers without arguments", ["{source}", "--top", "fir", "--axi-lite", "-o", "{out}"],
+     r"--axi-lite: the top 'fir' has no scalar arguments"),
     ("period below any operation", ["{source}", "--top", "fir", "--clock", "0.01ns", "-o", "{out}"], r"period"),
 ]
 

@@ -56,6 +56,20 @@ class documentation(unittest.TestCase):
         self.assertEqual(ports_of(verilog), ports_of(re.search(r"```verilog\n(.*?)```", page, re.DOTALL)[1]))
 
 
+    def test_the_software_of_the_worked_example_compiles(self):
+        compiler = os.environ.get("EPILINE_HLS")
+        page = text_of(root / "docs" / "rtl_interface.md")
+        software = root / "docs" / "examples" / "scale_software.c"
+        self.assertIn(re.search(r"```c\n(.*?)```", page, re.DOTALL)[1], text_of(software))
+        if not compiler:
+            self.skipTest("EPILINE_HLS does not name the compiler")
+        with tempfile.TemporaryDirectory() as folder:
+            example = root / "docs" / "examples" / "scale.cpp"
+            subprocess.run([compiler, str(example), "--top", "scale", "--axi-lite", "-q", "-o", folder], check=True)
+            subprocess.run(["clang++-19", "-x", "c", "-std=c99", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", "-I",
+                            folder, str(software)], check=True)
+
+
 def ports_of(verilog):
     """{(direction, width, name)} of the module `scale`."""
     header = re.search(r"module scale\s*\((.*?)\);", verilog, re.DOTALL)[1]
