@@ -51,9 +51,18 @@ rm -f "$folder/resources.json" "$folder/$top.json" "$folder/${top}_netlist.v"
 # "$mem_v2" cells carry the name of the Verilog array in MEMID.
 # shellcheck disable=SC2206  # the variable is a list of words
 options=(${YOSYS_OPTIONS:-})
+# Operators with a mapping of their own are black boxes until then, so that their widths stay parameters.
+operators=''
+if grep -q '^module epiline_add_or_subtract' "$verilog"; then
+  operators="
+    blackbox epiline_add_or_subtract
+    hierarchy -top $top
+    techmap -map \"$PWD/scripts/ecp5_operators.v\""
+fi
 # Yosys runs inside the folder: it takes no quotes around the names of its output files.
 if ! (cd "$folder" && "$yosys" -Q -T -q -l yosys.log -p "
   read_verilog \"$verilog\"
+  $operators
   synth_ecp5 -top $top ${options[*]} -run begin:map_ram
   tee -o early_check.txt check
   select -assert-none t:\$_DLATCH* t:\$dlatch %u

@@ -36,6 +36,8 @@ llvm::APInt evaluate(operation kind, unsigned width, unsigned low, std::span<con
       return a - operands[1];
     case operation::multiply:
       return a * operands[1];
+    case operation::add_or_subtract:
+      return operands[2].isZero() ? a + operands[1] : a - operands[1];
     case operation::divide_unsigned:
     case operation::divide_signed:
     case operation::remainder_unsigned:

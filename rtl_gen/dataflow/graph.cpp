@@ -19,6 +19,7 @@ constexpr std::array operation_names = {"constant",
                                         "add",
                                         "subtract",
                                         "multiply",
+                                        "add_or_subtract",
                                         "divide_unsigned",
                                         "divide_signed",
                                         "remainder_unsigned",
@@ -211,6 +212,8 @@ class checker {
       case operation::bit_or:
       case operation::bit_xor:
         return expect(n, {n.width, n.width});
+      case operation::add_or_subtract:
+        return expect(n, {n.width, n.width, 1});
       case operation::bit_not:
         return expect(n, {n.width});
       case operation::shift_left:

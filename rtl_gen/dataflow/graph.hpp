@@ -43,7 +43,8 @@ enum class operation : std::uint8_t {
   table,           // (address) word of constant table `object`; an address past its end gives 0
   add,
   subtract,
-  multiply,  // (a, b): all three widths equal, wraps
+  multiply,         // (a, b): all three widths equal, wraps
+  add_or_subtract,  // (a, b, subtract:1): a - b if subtract, otherwise a + b; three widths equal, wraps
   divide_unsigned,
   divide_signed,  // (a, b): equal widths, truncates toward zero; b = 0: all ones
   remainder_unsigned,

@@ -379,6 +379,9 @@ bool interpreter::execute(const batch& b) {
     case opcode::multiply:
       wrapped([&](const instruction& n) { return v[n.a] * v[n.b]; });
       break;
+    case opcode::add_or_subtract:
+      wrapped([&](const instruction& n) { return v[n.c] != 0 ? v[n.a] - v[n.b] : v[n.a] + v[n.b]; });
+      break;
     case opcode::divide_unsigned:
       wrapped([&](const instruction& n) { return v[n.b] == 0 ? ~word{0} : v[n.a] / v[n.b]; });
       break;

@@ -88,6 +88,7 @@ class interpreter {
     add,
     subtract,
     multiply,
+    add_or_subtract,
     divide_unsigned,
     divide_signed,
     remainder_unsigned,

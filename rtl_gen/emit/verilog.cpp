@@ -86,6 +86,27 @@ std::string literal(unsigned width, std::uint64_t value) { return literal(llvm::
 
 unsigned bits_for(std::uint64_t largest) { return std::max(1u, static_cast<unsigned>(std::bit_width(largest))); }
 
+/// A module of its own, because synthesis makes one carry chain of it only when it is told how
+/// (scripts/ecp5_operators.v); several generated files may be compiled together.
+constexpr const char* add_or_subtract_module = R"(
+`ifndef EPILINE_ADD_OR_SUBTRACT
+`define EPILINE_ADD_OR_SUBTRACT
+/* verilator lint_off DECLFILENAME */
+module epiline_add_or_subtract #(
+  parameter WIDTH = 8
+) (
+  input  wire [WIDTH-1:0] a,
+  input  wire [WIDTH-1:0] b,
+  input  wire             subtract,
+  output wire [WIDTH-1:0] total
+);
+  // The lowest place only makes the carry: a - b is a + ~b + 1.
+  wire [WIDTH:0] sum = {a, subtract} + {b ^ {WIDTH{subtract}}, subtract};
+  assign total = sum[WIDTH:1];
+endmodule
+/* verilator lint_on DECLFILENAME */
+`endif)";
+
 class writer {
  public:
   writer(const graph& g, const schedule::delay_model& model, const schedule::result& s, const verilog_options& options)
@@ -168,6 +189,7 @@ class writer {
   std::unordered_set<std::string> taken_;
   std::map<std::string, unsigned, std::less<>> numbers_;
   std::vector<std::string> node_name_, register_name_, memory_name_, table_name_, port_name_, line_name_;
+  bool adds_or_subtracts_ = false;  // the module of that name is needed
   std::vector<char> inlined_;
   std::vector<std::string> pending_name_;       // patient registers' next value
   std::vector<std::vector<node_id>> nodes_at_;  // per stage
@@ -270,6 +292,8 @@ void writer::choose_names() {
         return "sum";
       case operation::subtract:
         return "difference";
+      case operation::add_or_subtract:
+        return "total";
       case operation::multiply:
         return "product";
       case operation::select:
@@ -455,6 +479,8 @@ writer::text_of_value writer::expression(node_id id) const {
       return binary("-");
     case operation::multiply:
       return binary("*");
+    case operation::add_or_subtract:
+      return {fmt::format("{0} ? {1} - {2} : {1} + {2}", o(2), o(0), o(1)), false, false};
     case operation::bit_and:
       return binary("&");
     case operation::bit_or:
@@ -891,6 +917,13 @@ void writer::write_node(node_id id) {
       }
       return;
     }
+    case operation::add_or_subtract:
+      adds_or_subtracts_ = true;
+      line("  wire {}{};{}", range, name, note);
+      line("  epiline_add_or_subtract #(.WIDTH({})) {} (.a({}), .b({}), .subtract({}), .total({}));", n.width,
+           fresh(name + "_adder"), whole(n.operands[0], stage), whole(n.operands[1], stage),
+           whole(n.operands[2], stage), name);
+      return;
     case operation::divide_unsigned:
     case operation::divide_signed:
     case operation::remainder_unsigned:
@@ -1255,6 +1288,7 @@ std::string writer::write() {
   write_outputs();
   line("\nendmodule\n");
   if (options_.axi_lite) line("{}", emit_axi_lite_slave(make_register_map(g_)));
+  if (adds_or_subtracts_) line("{}", add_or_subtract_module);
   line("`default_nettype wire");
   return std::move(out_);
 }

@@ -8,6 +8,7 @@
 
 #include "passes/balance_trees.hpp"
 #include "passes/expand_arithmetic.hpp"
+#include "passes/fold_magnitudes.hpp"
 #include "passes/forward_memories.hpp"
 #include "passes/merge_registers.hpp"
 #include "passes/narrow_widths.hpp"
@@ -89,6 +90,7 @@ std::vector<pass_report> run_default_pipeline(graph& g, const pipeline_options& 
   passes.run("pack_memories", pack_memories);
   passes.run("forward_memories", [&](graph& x) { forward_memories(x, options.forwarded_writes); });
   passes.run("simplify", simplify);
+  passes.run("fold_magnitudes", fold_magnitudes);
   passes.run("place_tables", place_tables);
   return std::move(passes.reports);
 }

@@ -158,6 +158,7 @@ double delay_model::delay(const graph& g, node_id id) const {
       return gate * p.lut_level;  // masked by its predicate
     case operation::add:
     case operation::subtract:
+    case operation::add_or_subtract:
       return n.width == 1 ? gate * p.lut_level : carry(n.width);
     case operation::less_unsigned:
     case operation::less_signed: {
@@ -243,6 +244,7 @@ double delay_model::area(const graph& g, node_id id) const {
       return 0.5 * n.width;
     case operation::add:
     case operation::subtract:
+    case operation::add_or_subtract:
       return n.width;
     case operation::less_unsigned:
     case operation::less_signed:

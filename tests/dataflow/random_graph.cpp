@@ -172,6 +172,7 @@ class generator {
     static constexpr std::array kinds = {operation::add,
                                          operation::subtract,
                                          operation::multiply,
+                                         operation::add_or_subtract,
                                          operation::divide_unsigned,
                                          operation::divide_signed,
                                          operation::remainder_unsigned,
@@ -216,6 +217,12 @@ class generator {
       case operation::bit_xor:
         make(kind, width, two(width));
         return;
+      case operation::add_or_subtract: {
+        std::vector<node_id> operands = two(width);
+        operands.push_back(value_of(1));
+        make(kind, width, std::move(operands));
+        return;
+      }
       case operation::bit_not:
         make(kind, width, {value_of(width)});
         return;

@@ -8,6 +8,7 @@
 #include "dataflow/text.hpp"
 #include "passes/balance_trees.hpp"
 #include "passes/expand_arithmetic.hpp"
+#include "passes/fold_magnitudes.hpp"
 #include "passes/forward_memories.hpp"
 #include "passes/merge_registers.hpp"
 #include "passes/narrow_widths.hpp"
@@ -52,6 +53,7 @@ TEST(equivalence, expand_arithmetic) {
     check([multiplier_width](graph& g) { expand_arithmetic(g, multiplier_width); });
 }
 TEST(equivalence, balance_trees) { check(balance_trees); }
+TEST(equivalence, fold_magnitudes) { check(fold_magnitudes); }
 TEST(equivalence, order_memory_accesses) { check(order_memory_accesses); }
 TEST(equivalence, forward_memories) {
   for (const unsigned writes : {1u, 3u})
