@@ -7,18 +7,23 @@
 #include "eval/metrics.hpp"
 #include "eval/random_images.hpp"
 #include "golden/engines.hpp"
+#include "tops/adaptive_ca.hpp"
 #include "tops/color_fuzzy.hpp"
 
 namespace epiline::csim {
 namespace {
 
-template <int PixelsPerBeat, int Levels>
-struct narrow : tops::color_fuzzy_config {
+template <class Full, int PixelsPerBeat, int Levels>
+struct narrow_of : Full {
   static constexpr int max_width = 72;
   static constexpr int max_height = 64;
   static constexpr int levels = Levels;
   static constexpr int pixels_per_beat = PixelsPerBeat;
 };
+template <int PixelsPerBeat, int Levels>
+using narrow = narrow_of<tops::color_fuzzy_config, PixelsPerBeat, Levels>;
+template <int PixelsPerBeat, int Levels>
+using narrow_adaptive = narrow_of<tops::adaptive_ca_config, PixelsPerBeat, Levels>;
 
 using types = tops::color_fuzzy_interface<narrow<2, 12>>;
 using video_stream = hls::stream<types::video_beat>;
@@ -78,18 +83,15 @@ TEST(run_native_top, refuses_an_output_that_is_no_frame) {
 // ---- the kernels against the reference model
 // ---------------------------------------------------------------------------
 
-template <class Config>
-class color_fuzzy_native : public testing::Test {};
-
-using configurations = testing::Types<narrow<1, 12>, narrow<2, 12>, narrow<4, 12>, narrow<1, 33>>;
-TYPED_TEST_SUITE(color_fuzzy_native, configurations);
-
-TYPED_TEST(color_fuzzy_native, equals_the_golden_model_on_random_images_sizes_and_parameters) {
-  using config = TypeParam;
+/// Frames of random images, sizes and parameters through `run(request, left, right, disparity)`, the top of a
+/// configuration of `name`.
+template <class Types, class Config, class Run>
+void expect_golden(std::string_view name, Run run) {
+  using config = Config;
   eval::engine_registry registry;
   golden::register_engines(registry);
-  const auto& design = *eval::find_design("color_fuzzy");
-  const auto golden = registry.find("color_fuzzy", "golden")->make(design);
+  const auto& design = *eval::find_design(name);
+  const auto golden = registry.find(name, "golden")->make(design);
 
   std::mt19937 random(100 + config::pixels_per_beat);
   const auto between = [&](int low, int high) {
@@ -107,30 +109,56 @@ TYPED_TEST(color_fuzzy_native, equals_the_golden_model_on_random_images_sizes_an
       std::ranges::fill(right.pixels, std::uint8_t{0});
     }
     eval::match_request request{left, right, between(1, config::levels), {}};
+    std::string parameters;
     for (const auto& parameter : design.parameters) {
-      request.parameters.emplace(
-          parameter.name, repeat % 3 == 0 ? parameter.default_value : between(parameter.minimum, parameter.maximum));
+      const int value = repeat % 3 == 0 ? parameter.default_value : between(parameter.minimum, parameter.maximum);
+      request.parameters.emplace(parameter.name, value);
+      parameters += ", " + std::string(parameter.name) + " " + std::to_string(value);
     }
-    const auto& with = request.parameters;
-    const auto map = run_native_top<tops::color_fuzzy_interface<config>>(
-        left, right, [&](auto& left_stream, auto& right_stream, auto& disparity) {
-          tops::color_fuzzy_frame<config>(left_stream, right_stream, disparity, width, height, request.levels,
-                                          with.at("left_right"), with.at("uniqueness"), with.at("fuzzy"),
-                                          with.at("careful_fill"));
-        });
+    const auto map = run_native_top<Types>(left, right, [&](auto& left_stream, auto& right_stream, auto& disparity) {
+      run(request, left_stream, right_stream, disparity);
+    });
     const auto expected = golden->match(request, {}).map;
     const auto difference = eval::compare(expected, map);
-    ASSERT_EQ(difference.differing, 0u) << width << "x" << height << ", levels " << request.levels << ", left_right "
-                                        << with.at("left_right") << ", uniqueness " << with.at("uniqueness")
-                                        << ", fuzzy " << with.at("fuzzy") << ", careful_fill "
-                                        << with.at("careful_fill") << ": first at column " << difference.first_x
-                                        << ", row " << difference.first_y;
+    ASSERT_EQ(difference.differing, 0u) << width << "x" << height << ", levels " << request.levels << parameters
+                                        << ": first at column " << difference.first_x << ", row " << difference.first_y;
     for (const auto bit : expected.defined) defined += bit;
     pixels += expected.defined.size();
   }
   // The comparison saw both kinds of pixel in numbers.
   EXPECT_GT(defined, pixels / 10);
   EXPECT_GT(pixels - defined, pixels / 20);
+}
+
+template <class Config>
+class color_fuzzy_native : public testing::Test {};
+using configurations = testing::Types<narrow<1, 12>, narrow<2, 12>, narrow<4, 12>, narrow<1, 33>>;
+TYPED_TEST_SUITE(color_fuzzy_native, configurations);
+
+TYPED_TEST(color_fuzzy_native, equals_the_golden_model_on_random_images_sizes_and_parameters) {
+  expect_golden<tops::color_fuzzy_interface<TypeParam>, TypeParam>(
+      "color_fuzzy", [](const eval::match_request& request, auto& left, auto& right, auto& disparity) {
+        const auto& with = request.parameters;
+        tops::color_fuzzy_frame<TypeParam>(left, right, disparity, request.left.width, request.left.height,
+                                           request.levels, with.at("left_right"), with.at("uniqueness"),
+                                           with.at("fuzzy"), with.at("careful_fill"));
+      });
+}
+
+template <class Config>
+class adaptive_ca_native : public testing::Test {};
+using adaptive_configurations =
+    testing::Types<narrow_adaptive<1, 12>, narrow_adaptive<2, 12>, narrow_adaptive<4, 12>, narrow_adaptive<1, 33>>;
+TYPED_TEST_SUITE(adaptive_ca_native, adaptive_configurations);
+
+TYPED_TEST(adaptive_ca_native, equals_the_golden_model_on_random_images_sizes_and_parameters) {
+  expect_golden<tops::adaptive_ca_interface<TypeParam>, TypeParam>(
+      "adaptive_ca", [](const eval::match_request& request, auto& left, auto& right, auto& disparity) {
+        const auto& with = request.parameters;
+        tops::adaptive_ca_frame<TypeParam>(left, right, disparity, request.left.width, request.left.height,
+                                           request.levels, with.at("t2"), with.at("t5"), with.at("automaton"),
+                                           with.at("ring"));
+      });
 }
 
 }  // namespace
