@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of method 2's RTL share: requests, the maps every level must send, and runs of several frames.
+// What the tests of the methods' RTL share: requests, the maps every level must send, and runs of several frames.
 
 #include <gtest/gtest.h>
 
@@ -22,36 +22,84 @@ inline eval::rgb_image image_of(const test::picture& picture) {
   return image;
 }
 
-inline eval::match_request request_of(const test::stereo_pair& pair, const test::settings& with) {
-  eval::match_request request;
-  request.left = image_of(pair.left);
-  request.right = image_of(pair.right);
-  request.levels = with.levels;
-  request.parameters = {{"left_right", with.left_right ? 1 : 0},
-                        {"uniqueness", with.uniqueness},
-                        {"fuzzy", with.fuzzy},
-                        {"careful_fill", with.careful_fill ? 1 : 0}};
-  return request;
-}
+/// What a test needs to know of a method: the design's name, its settings, random ones, and its kernels.
+struct color_fuzzy_method {
+  static constexpr const char* name = "color_fuzzy";
+  using settings = test::settings;
+  struct config : tops::color_fuzzy_config {};
 
-/// A frame with random size, content and parameters within a configuration's limits.
-struct random_frame {
-  test::stereo_pair pair;
-  test::settings with;
-
-  random_frame(std::mt19937& random, int max_width, int max_height, int max_levels)
-      : pair(test::random_pair(random, 1 + static_cast<int>(random() % static_cast<unsigned>(max_width)),
-                               1 + static_cast<int>(random() % static_cast<unsigned>(max_height)), max_levels - 1,
-                               static_cast<int>(random() % 20))) {
-    with.levels = 1 + static_cast<int>(random() % static_cast<unsigned>(max_levels));
+  static eval::parameter_values parameters(const settings& with) {
+    return {{"left_right", with.left_right ? 1 : 0},
+            {"uniqueness", with.uniqueness},
+            {"fuzzy", with.fuzzy},
+            {"careful_fill", with.careful_fill ? 1 : 0}};
+  }
+  static settings random_settings(std::mt19937& random) {
+    settings with;
     with.left_right = random() % 4 != 0;
     with.uniqueness = random() % 4 == 0 ? 0 : 14 + static_cast<int>(random() % 8);
     with.fuzzy = static_cast<int>(random() % 3);
     with.careful_fill = random() % 2 == 0;
+    return with;
+  }
+  template <class Config>
+  static test::disparity_map run(const test::stereo_pair& pair, const settings& with) {
+    return test::run_color_fuzzy<Config>(pair, with);
+  }
+};
+
+struct adaptive_ca_method {
+  static constexpr const char* name = "adaptive_ca";
+  using settings = test::adaptive_ca_settings;
+  struct config : tops::adaptive_ca_config {};
+
+  static eval::parameter_values parameters(const settings& with) {
+    return {{"t2", with.t2}, {"t5", with.t5}, {"automaton", with.automaton ? 1 : 0}, {"ring", with.ring}};
+  }
+  static settings random_settings(std::mt19937& random) {
+    const auto below = [&random](int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); };
+    settings with;
+    // Random frames vary much: thresholds around their variation, so that every window is chosen.
+    with.t2 = below(4) == 0 ? below(256) : 150 + below(100);
+    with.t5 = below(4) == 0 ? below(3183) : 1000 + below(800);
+    with.automaton = below(4) != 0;
+    with.ring = below(4) == 0 ? 1 + below(40) : 1 + below(8);
+    return with;
+  }
+  template <class Config>
+  static test::disparity_map run(const test::stereo_pair& pair, const settings& with) {
+    return test::run_adaptive_ca<Config>(pair, with);
+  }
+};
+
+template <class Method>
+eval::match_request request_of(const test::stereo_pair& pair, const typename Method::settings& with) {
+  eval::match_request request;
+  request.left = image_of(pair.left);
+  request.right = image_of(pair.right);
+  request.levels = with.levels;
+  request.parameters = Method::parameters(with);
+  return request;
+}
+
+/// A frame with random size, content and parameters within a configuration's limits.
+template <class Method>
+struct random_frame_of {
+  test::stereo_pair pair;
+  typename Method::settings with;
+
+  random_frame_of(std::mt19937& random, int max_width, int max_height, int max_levels)
+      : pair(test::random_pair(random, 1 + static_cast<int>(random() % static_cast<unsigned>(max_width)),
+                               1 + static_cast<int>(random() % static_cast<unsigned>(max_height)), max_levels - 1,
+                               static_cast<int>(random() % 20))) {
+    const int levels = 1 + static_cast<int>(random() % static_cast<unsigned>(max_levels));
+    with = Method::random_settings(random);
+    with.levels = levels;
   }
 
-  [[nodiscard]] eval::match_request request() const { return request_of(pair, with); }
+  [[nodiscard]] eval::match_request request() const { return request_of<Method>(pair, with); }
 };
+using random_frame = random_frame_of<color_fuzzy_method>;
 
 /// A scene of slanted and stepped surfaces in texture, from disparity 0 to levels - 1, with noise: larger than a random
 /// frame, and closer to what cameras see.
@@ -81,9 +129,9 @@ inline test::stereo_pair synthetic_scene(int width, int height, int levels, unsi
   return pair;
 }
 
-template <class Config>
-eval::disparity_map native_map(const test::stereo_pair& pair, const test::settings& with) {
-  const test::disparity_map values = test::run_color_fuzzy<Config>(pair, with);
+template <class Method, class Config>
+eval::disparity_map native_map_of(const test::stereo_pair& pair, const typename Method::settings& with) {
+  const test::disparity_map values = Method::template run<Config>(pair, with);
   eval::disparity_map map(pair.left.width, pair.left.height);
   EXPECT_EQ(values.size(), map.disparity.size());
   for (std::size_t index = 0; index < values.size(); ++index) {
@@ -93,12 +141,17 @@ eval::disparity_map native_map(const test::stereo_pair& pair, const test::settin
   }
   return map;
 }
+template <class Config>
+eval::disparity_map native_map(const test::stereo_pair& pair, const test::settings& with) {
+  return native_map_of<color_fuzzy_method, Config>(pair, with);
+}
 
-inline eval::disparity_map golden_map(const eval::match_request& request) {
+template <class Method>
+eval::disparity_map golden_map(const eval::match_request& request) {
   eval::engine_registry registry;
   golden::register_engines(registry);
-  const eval::design_description& design = *eval::find_design("color_fuzzy");
-  return registry.find("color_fuzzy", "golden")->make(design)->match(request, {}).map;
+  const eval::design_description& design = *eval::find_design(Method::name);
+  return registry.find(Method::name, "golden")->make(design)->match(request, {}).map;
 }
 
 struct frames_run {

@@ -15,7 +15,8 @@
 namespace epiline::cosim {
 namespace {
 
-class color_fuzzy_real_pair : public testing::TestWithParam<const char*> {
+template <class Method>
+class real_pair : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
     const char* data = std::getenv("EPILINE_DATA");
@@ -42,28 +43,34 @@ class color_fuzzy_real_pair : public testing::TestWithParam<const char*> {
   [[nodiscard]] eval::match_result run(const char* engine, const eval::run_options& options) const {
     eval::engine_registry registry;
     register_engines(registry);
-    const eval::design_description& design = *eval::find_design("color_fuzzy");
-    return registry.find("color_fuzzy", engine)->make(design)->match(request_of(pair_, with_), options);
+    const eval::design_description& design = *eval::find_design(Method::name);
+    return registry.find(Method::name, engine)->make(design)->match(request_of<Method>(pair_, with_), options);
+  }
+
+  void expect_same_at_every_level() const {
+    const eval::disparity_map golden = golden_map<Method>(request_of<Method>(pair_, with_));
+    ASSERT_TRUE(same_maps(native_map_of<Method, typename Method::config>(pair_, with_), golden)) << "native";
+    eval::run_options options;
+    options.seed = 7;
+    options.input_gap_percent = 25;
+    options.output_stall_percent = 25;
+    EXPECT_TRUE(same_maps(run("rtl", options).map, golden)) << "rtl, seed 7";
+    EXPECT_TRUE(same_maps(run("graph", {}).map, golden)) << "graph";
   }
 
   test::stereo_pair pair_;
-  test::settings with_;
+  typename Method::settings with_;
 };
 
-TEST_P(color_fuzzy_real_pair, is_the_same_at_every_level) {
-  const eval::disparity_map golden = golden_map(request_of(pair_, with_));
-  ASSERT_TRUE(same_maps(native_map<tops::color_fuzzy_config>(pair_, with_), golden)) << "native";
-  eval::run_options options;
-  options.seed = 7;
-  options.input_gap_percent = 25;
-  options.output_stall_percent = 25;
-  EXPECT_TRUE(same_maps(run("rtl", options).map, golden)) << "rtl, seed 7";
-  EXPECT_TRUE(same_maps(run("graph", {}).map, golden)) << "graph";
-}
+using color_fuzzy_real_pair = real_pair<color_fuzzy_method>;
+using adaptive_ca_real_pair = real_pair<adaptive_ca_method>;
+const auto scenes = testing::Values("tsukuba", "venus", "cones", "teddy", "motorcycle", "aloe");
+const auto scene_name = [](const auto& scene) { return std::string(scene.param); };
 
-INSTANTIATE_TEST_SUITE_P(pairs, color_fuzzy_real_pair,
-                         testing::Values("tsukuba", "venus", "cones", "teddy", "motorcycle", "aloe"),
-                         [](const auto& scene) { return std::string(scene.param); });
+TEST_P(color_fuzzy_real_pair, is_the_same_at_every_level) { expect_same_at_every_level(); }
+INSTANTIATE_TEST_SUITE_P(pairs, color_fuzzy_real_pair, scenes, scene_name);
+TEST_P(adaptive_ca_real_pair, is_the_same_at_every_level) { expect_same_at_every_level(); }
+INSTANTIATE_TEST_SUITE_P(pairs, adaptive_ca_real_pair, scenes, scene_name);
 
 }  // namespace
 }  // namespace epiline::cosim

@@ -1,8 +1,10 @@
-// Method 2 as the compiler made it: the RTL in Verilator and the dataflow graph against the native kernels and the
+// The methods as the compiler made them: the RTL in Verilator and the dataflow graph against the native kernels and the
 // golden model, bit for bit, whatever the stalls.
 
 #include <gtest/gtest.h>
 
+#include "adaptive_ca_rtl_model.hpp"
+#include "adaptive_ca_small_rtl_model.hpp"
 #include "color_fuzzy_p2_rtl_model.hpp"
 #include "color_fuzzy_rtl_model.hpp"
 #include "color_fuzzy_small_rtl_model.hpp"
@@ -12,61 +14,82 @@
 namespace epiline::cosim {
 namespace {
 
-struct full {
-  struct config : tops::color_fuzzy_config {};
+/// A method's configuration with few levels, as in hls/tops/*_small.cpp.
+template <class Full>
+struct few_levels_of : Full {
+  static constexpr int max_width = 64;
+  static constexpr int max_height = 255;
+  static constexpr int levels = 8;
+};
+
+struct color_fuzzy_full {
+  using method = color_fuzzy_method;
+  using config = method::config;
   static constexpr const char* graph = COLOR_FUZZY_GRAPH;
   static auto make(std::uint64_t seed) { return make_color_fuzzy_rtl_model(seed); }
 };
-struct two_pixels {
+struct color_fuzzy_two_pixels {
+  using method = color_fuzzy_method;
   struct config : tops::color_fuzzy_config {
     static constexpr int pixels_per_beat = 2;
   };
   static constexpr const char* graph = COLOR_FUZZY_P2_GRAPH;
   static auto make(std::uint64_t seed) { return make_color_fuzzy_p2_rtl_model(seed); }
 };
-struct few_levels {
-  struct config : tops::color_fuzzy_config {
-    static constexpr int max_width = 64;
-    static constexpr int max_height = 255;
-    static constexpr int levels = 8;
-  };
+struct color_fuzzy_few_levels {
+  using method = color_fuzzy_method;
+  using config = few_levels_of<tops::color_fuzzy_config>;
   static constexpr const char* graph = COLOR_FUZZY_SMALL_GRAPH;
   static auto make(std::uint64_t seed) { return make_color_fuzzy_small_rtl_model(seed); }
 };
+struct adaptive_ca_full {
+  using method = adaptive_ca_method;
+  using config = method::config;
+  static constexpr const char* graph = ADAPTIVE_CA_GRAPH;
+  static auto make(std::uint64_t seed) { return make_adaptive_ca_rtl_model(seed); }
+};
+struct adaptive_ca_few_levels {
+  using method = adaptive_ca_method;
+  using config = few_levels_of<tops::adaptive_ca_config>;
+  static constexpr const char* graph = ADAPTIVE_CA_SMALL_GRAPH;
+  static auto make(std::uint64_t seed) { return make_adaptive_ca_small_rtl_model(seed); }
+};
 
 template <class Design>
-class color_fuzzy_rtl : public testing::Test {
+class stereo_rtl : public testing::Test {
  protected:
   using config = typename Design::config;
   static constexpr int pixels_per_beat = config::pixels_per_beat;
 
   static eval::disparity_map graph_map(const eval::match_request& request) {
-    eval::design_description design = *eval::find_design("color_fuzzy");
+    eval::design_description design = *eval::find_design(Design::method::name);
     design.pixels_per_beat = pixels_per_beat;
     return make_graph_engine(design, Design::graph)->match(request, {}).map;
   }
 };
 
-using designs = testing::Types<full, two_pixels, few_levels>;
-TYPED_TEST_SUITE(color_fuzzy_rtl, designs);
+using designs = testing::Types<color_fuzzy_full, color_fuzzy_two_pixels, color_fuzzy_few_levels, adaptive_ca_full,
+                               adaptive_ca_few_levels>;
+TYPED_TEST_SUITE(stereo_rtl, designs);
 
-TYPED_TEST(color_fuzzy_rtl, random_frames_are_the_same_at_every_level) {
+TYPED_TEST(stereo_rtl, random_frames_are_the_same_at_every_level) {
   using config = typename TypeParam::config;
   std::mt19937 random(11);
   const auto model = TypeParam::make(1);
   for (int round = 0; round < 12; ++round) {
-    const random_frame frame(random, 60, 14, config::levels);
+    const random_frame_of<typename TypeParam::method> frame(random, 60, 14, config::levels);
     const eval::match_request request = frame.request();
     SCOPED_TRACE(testing::Message() << "round " << round << ", " << frame.pair.left.width << "x"
                                     << frame.pair.left.height << ", " << frame.with.levels << " levels");
-    const eval::disparity_map golden = golden_map(request);
-    ASSERT_TRUE(same_maps(native_map<config>(frame.pair, frame.with), golden)) << "native";
+    const eval::disparity_map golden = golden_map<typename TypeParam::method>(request);
+    ASSERT_TRUE(same_maps(native_map_of<typename TypeParam::method, config>(frame.pair, frame.with), golden))
+        << "native";
     ASSERT_TRUE(same_maps(this->graph_map(request), golden)) << "graph";
     ASSERT_TRUE(same_maps(run_frames(*model, {request}, config::pixels_per_beat, {}).maps[0], golden)) << "rtl";
   }
 }
 
-TYPED_TEST(color_fuzzy_rtl, every_mix_of_stalls_leaves_two_changing_frames_as_they_are) {
+TYPED_TEST(stereo_rtl, every_mix_of_stalls_leaves_two_changing_frames_as_they_are) {
   using config = typename TypeParam::config;
   std::mt19937 random(12);
   const auto model = TypeParam::make(2);
@@ -77,8 +100,8 @@ TYPED_TEST(color_fuzzy_rtl, every_mix_of_stalls_leaves_two_changing_frames_as_th
         ++seed;
         SCOPED_TRACE(testing::Message() << "stalls left " << left << ", right " << right << ", out " << out << ", seed "
                                         << seed);
-        const random_frame first(random, 20, 9, config::levels);
-        const random_frame second(random, 20, 9, config::levels);
+        const random_frame_of<typename TypeParam::method> first(random, 20, 9, config::levels);
+        const random_frame_of<typename TypeParam::method> second(random, 20, 9, config::levels);
         const std::vector<eval::match_request> requests{first.request(), second.request()};
         drive_options options;
         options.seed = seed;
@@ -88,18 +111,18 @@ TYPED_TEST(color_fuzzy_rtl, every_mix_of_stalls_leaves_two_changing_frames_as_th
         options.probe_outputs = seed % 2 == 0;
         options.ready_after_valid = seed % 5 == 0;
         const frames_run run = run_frames(*model, requests, config::pixels_per_beat, options);
-        ASSERT_TRUE(same_maps(run.maps[0], golden_map(requests[0]))) << "first frame";
-        ASSERT_TRUE(same_maps(run.maps[1], golden_map(requests[1]))) << "second frame";
+        ASSERT_TRUE(same_maps(run.maps[0], golden_map<typename TypeParam::method>(requests[0]))) << "first frame";
+        ASSERT_TRUE(same_maps(run.maps[1], golden_map<typename TypeParam::method>(requests[1]))) << "second frame";
       }
     }
   }
 }
 
-TYPED_TEST(color_fuzzy_rtl, does_not_trust_what_was_in_its_memories) {
+TYPED_TEST(stereo_rtl, does_not_trust_what_was_in_its_memories) {
   using config = typename TypeParam::config;
   std::mt19937 random(13);
-  const random_frame frame(random, 60, 20, config::levels);
-  const eval::disparity_map golden = golden_map(frame.request());
+  const random_frame_of<typename TypeParam::method> frame(random, 60, 20, config::levels);
+  const eval::disparity_map golden = golden_map<typename TypeParam::method>(frame.request());
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const auto model = TypeParam::make(seed);
     ASSERT_TRUE(same_maps(run_frames(*model, {frame.request()}, config::pixels_per_beat, {}).maps[0], golden))
@@ -107,11 +130,11 @@ TYPED_TEST(color_fuzzy_rtl, does_not_trust_what_was_in_its_memories) {
   }
 }
 
-TYPED_TEST(color_fuzzy_rtl, a_reset_in_the_middle_of_a_frame_leaves_nothing_behind) {
+TYPED_TEST(stereo_rtl, a_reset_in_the_middle_of_a_frame_leaves_nothing_behind) {
   using config = typename TypeParam::config;
   std::mt19937 random(14);
   const auto model = TypeParam::make(1);
-  const random_frame frame(random, 60, 20, config::levels);
+  const random_frame_of<typename TypeParam::method> frame(random, 60, 20, config::levels);
   // Half of the tokens, then the driver gives up; its next run begins with a reset.
   frame_tokens frames(model->ports(), config::pixels_per_beat);
   drive_request half;
@@ -125,39 +148,45 @@ TYPED_TEST(color_fuzzy_rtl, a_reset_in_the_middle_of_a_frame_leaves_nothing_behi
   options.patience = 500;
   static_cast<void>(drive(*model, half, options));
   EXPECT_TRUE(same_maps(run_frames(*model, {frame.request()}, config::pixels_per_beat, {}).maps[0],
-                        golden_map(frame.request())));
+                        golden_map<typename TypeParam::method>(frame.request())));
 }
 
 template <class Design>
 void expect_scene_at_every_level(int width, int height) {
   using config = typename Design::config;
-  test::settings with;
+  typename Design::method::settings with;
   with.levels = config::levels;
   const test::stereo_pair scene = synthetic_scene(width, height, config::levels, 15);
-  const eval::match_request request = request_of(scene, with);
-  const eval::disparity_map golden = golden_map(request);
-  EXPECT_TRUE(same_maps(native_map<config>(scene, with), golden)) << "native";
+  const eval::match_request request = request_of<typename Design::method>(scene, with);
+  const eval::disparity_map golden = golden_map<typename Design::method>(request);
+  EXPECT_TRUE(same_maps(native_map_of<typename Design::method, config>(scene, with), golden)) << "native";
   const auto model = Design::make(1);
   EXPECT_TRUE(same_maps(run_frames(*model, {request}, config::pixels_per_beat, {}).maps[0], golden)) << "rtl";
-  eval::design_description design = *eval::find_design("color_fuzzy");
+  eval::design_description design = *eval::find_design(Design::method::name);
   design.pixels_per_beat = config::pixels_per_beat;
   EXPECT_TRUE(same_maps(make_graph_engine(design, Design::graph)->match(request, {}).map, golden)) << "graph";
 }
 
-TEST(color_fuzzy_80_levels, a_scene_is_the_same_at_every_level) { expect_scene_at_every_level<full>(320, 96); }
-TEST(color_fuzzy_80_levels, a_scene_is_the_same_with_two_pixels_a_beat) {
-  expect_scene_at_every_level<two_pixels>(319, 64);
+TEST(color_fuzzy_80_levels, a_scene_is_the_same_at_every_level) {
+  expect_scene_at_every_level<color_fuzzy_full>(320, 96);
 }
-TEST(color_fuzzy_80_levels, the_widest_row_fits) { expect_scene_at_every_level<full>(1024, 9); }
+TEST(color_fuzzy_80_levels, a_scene_is_the_same_with_two_pixels_a_beat) {
+  expect_scene_at_every_level<color_fuzzy_two_pixels>(319, 64);
+}
+TEST(color_fuzzy_80_levels, the_widest_row_fits) { expect_scene_at_every_level<color_fuzzy_full>(1024, 9); }
+TEST(adaptive_ca_80_levels, a_scene_is_the_same_at_every_level) {
+  expect_scene_at_every_level<adaptive_ca_full>(320, 96);
+}
+TEST(adaptive_ca_80_levels, the_widest_row_fits) { expect_scene_at_every_level<adaptive_ca_full>(1024, 9); }
 
 /// Clocks from the end of one frame to the end of the next of the same size, without stalls.
 template <class Design>
 std::uint64_t clocks_a_frame(int width, int height) {
   using config = typename Design::config;
-  test::settings with;
+  typename Design::method::settings with;
   const test::stereo_pair scene = synthetic_scene(width, height, config::levels, 16);
   const auto model = Design::make(1);
-  const eval::match_request request = request_of(scene, with);
+  const eval::match_request request = request_of<typename Design::method>(scene, with);
   const frames_run run = run_frames(*model, {request, request}, config::pixels_per_beat, {});
   EXPECT_TRUE(same_maps(run.maps[1], run.maps[0]));
   return run.frame_ends[1] - run.frame_ends[0];
@@ -172,9 +201,14 @@ void expect_few_clocks(int width, int height) {
                                                        << static_cast<double>(clocks) / least << " times the pixels";
 }
 
-TEST(color_fuzzy_cycles, a_frame_of_320x240) { expect_few_clocks<full>(320, 240); }
-TEST(color_fuzzy_cycles, a_frame_of_640x480) { expect_few_clocks<full>(640, 480); }
-TEST(color_fuzzy_cycles, a_frame_of_640x480_with_two_pixels_a_beat) { expect_few_clocks<two_pixels>(640, 480); }
+TEST(color_fuzzy_cycles, a_frame_of_320x240) { expect_few_clocks<color_fuzzy_full>(320, 240); }
+TEST(color_fuzzy_cycles, a_frame_of_640x480) { expect_few_clocks<color_fuzzy_full>(640, 480); }
+TEST(color_fuzzy_cycles, a_frame_of_640x480_with_two_pixels_a_beat) {
+  expect_few_clocks<color_fuzzy_two_pixels>(640, 480);
+}
+
+/// Method 1's result lies 7 rows below its newest pixel: smaller frames take relatively more.
+TEST(adaptive_ca_cycles, a_frame_of_640x480) { expect_few_clocks<adaptive_ca_full>(640, 480); }
 
 }  // namespace
 }  // namespace epiline::cosim

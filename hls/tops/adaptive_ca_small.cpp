@@ -1,0 +1,18 @@
+// Method 1 for small devices and quick experiments: 8 levels, rows of up to 64 pixels.
+#include "tops/adaptive_ca.hpp"
+
+namespace {
+struct config : epiline::tops::adaptive_ca_config {
+  static constexpr int max_width = 64;
+  static constexpr int max_height = 255;
+  static constexpr int levels = 8;
+};
+using types = epiline::tops::adaptive_ca_interface<config>;
+}  // namespace
+
+void adaptive_ca_small(hls::stream<types::video_beat>& left, hls::stream<types::video_beat>& right,
+                       hls::stream<types::disparity_beat>& disparity, types::width_t width, types::height_t height,
+                       types::levels_t levels, types::t2_t t2, types::t5_t t5, ap_uint<1> automaton,
+                       types::ring_t ring) {
+  epiline::tops::adaptive_ca_frame<config>(left, right, disparity, width, height, levels, t2, t5, automaton, ring);
+}
