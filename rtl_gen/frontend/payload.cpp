@@ -18,6 +18,20 @@ unsigned tag_of(llvm::Type* type, unsigned element_bits) {
   return static_cast<unsigned>(inner->getNumElements());
 }
 
+/// The alignment a type has in C++, in bytes: ap types have none (see hls/types), whatever LLVM would give them.
+std::uint64_t source_alignment(llvm::Type* type, const llvm::DataLayout& layout) {
+  unsigned width = 0;
+  bool is_signed = false;
+  if (is_arbitrary_precision(type, width, is_signed)) return 1;
+  if (auto* array = llvm::dyn_cast<llvm::ArrayType>(type))
+    return array->getNumElements() == 0 ? 1 : source_alignment(array->getElementType(), layout);
+  auto* structure = llvm::dyn_cast<llvm::StructType>(type);
+  if (structure == nullptr) return layout.getABITypeAlign(type).value();
+  std::uint64_t alignment = 1;
+  for (llvm::Type* member : structure->elements()) alignment = std::max(alignment, source_alignment(member, layout));
+  return alignment;
+}
+
 struct collector {
   const source_place& place;
   const llvm::DataLayout& layout;
@@ -83,10 +97,9 @@ bool is_padding(const llvm::StructType& structure, unsigned index, const llvm::D
   const std::uint64_t begin = offsets.getElementOffset(index);
   std::uint64_t alignment = 1;
   if (index + 1 < structure.getNumElements()) {
-    alignment = layout.getABITypeAlign(structure.getElementType(index + 1)).value();
+    alignment = source_alignment(structure.getElementType(index + 1), layout);
   } else {
-    for (llvm::Type* member : structure.elements())
-      alignment = std::max(alignment, layout.getABITypeAlign(member).value());
+    alignment = source_alignment(const_cast<llvm::StructType*>(&structure), layout);
   }
   return begin % alignment != 0 && (begin + bytes->getNumElements()) % alignment == 0 &&
          bytes->getNumElements() < alignment;
