@@ -55,12 +55,14 @@ class builder {
   std::int64_t textures_ = 0;
 };
 
-/// A plane through the three disparities, which are those of the upper left, upper right and lower left pixel.
+/// A plane by its disparities at the upper left pixel, in the first row as far right as a camera sees (the right camera
+/// sees up to `nearest` columns more of it than the left one), and at the lower left pixel.
 surface slanted_through(surface shape, double upper_left, double upper_right, double lower_left,
-                        const scene_parameters& size) {
-  // Steeper than half a pixel a column nobody could look at; narrow images get less of the slant.
-  shape.per_column = std::clamp((upper_right - upper_left) / std::max(size.width - 1, 1), -0.5, 0.5);
-  shape.per_row = (lower_left - upper_left) / std::max(size.height - 1, 1);
+                        const scene_parameters& parameters) {
+  const double nearest = parameters.levels - 1;
+  // In narrow images it would be steeper than anyone could look at.
+  shape.per_column = std::clamp((upper_right - upper_left) / (parameters.width - 1 + nearest), -0.5, 0.5);
+  shape.per_row = (lower_left - upper_left) / std::max(parameters.height - 1, 1);
   shape.disparity_at_origin = upper_left;
   return shape;
 }
@@ -153,7 +155,7 @@ room random_dot(builder& build) {
 }
 
 /// Tiles of 2 to 17 pixels at whole disparities close to one another, from the farthest on the left to the nearest on
-/// the right; one in six has no texture. Nothing to look at, but full of decisions.
+/// the right; one in six has no texture, one in twelve only specks. Nothing to look at, but full of decisions.
 room mosaic(builder& build) {
   const auto& size = build.parameters();
   std::vector<surface> surfaces{build.backdrop(0)};
@@ -169,7 +171,9 @@ room mosaic(builder& build) {
       surface piece = build.rectangle(disparity, x, x + wide, y, y + tall);
       piece.colours.longest_wave = 4;
       piece.colours.waves = 2;
-      if (between(build.random({++tile}), 0, 5) == 0) piece.colours.form = texture::kind::plain;
+      const int kind = between(build.random({++tile}), 0, 11);
+      if (kind < 2) piece.colours.form = texture::kind::plain;
+      if (kind == 2) piece.colours.form = texture::kind::specks;
       surfaces.push_back(piece);
       x += wide;
     }

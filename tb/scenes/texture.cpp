@@ -32,9 +32,11 @@ colour smooth_noise(std::uint64_t seed, double u, double v, std::int64_t period)
 
 colour texture::at(double u, double v, double pixels_per_unit) const {
   if (form == kind::plain) return base;
-  if (form == kind::dots) {
-    const auto cell = [](double position) { return static_cast<std::int64_t>(std::floor(position + 0.5)); };
-    return colour::Constant(hash(seed, {cell(u), cell(v)}) >> 63 != 0 ? 255 : 0);
+  const auto square = [](double position) { return static_cast<std::int64_t>(std::floor(position + 0.5)); };
+  if (form == kind::dots) return colour::Constant(hash(seed, {square(u), square(v)}) >> 63 != 0 ? 255 : 0);
+  if (form == kind::specks) {
+    const std::uint64_t bits = hash(seed, {square(u), square(v)});
+    return base + (between(bits, 0, 19) == 0 ? between(hash(bits, {}), -1, 1) * contrast : 0.0);
   }
   colour sum = base;
   double wave = longest_wave;

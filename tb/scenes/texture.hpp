@@ -14,6 +14,7 @@ struct texture {
     plain,     // `base` everywhere
     waves,     // smooth noise of several wavelengths, each half the one before
     dots,      // squares of one unit, black or white
+    specks,    // `base`, with a lighter or darker square of one unit here and there
     repeated,  // `waves` of a strip `period` units wide, again and again along u
   };
   kind form = kind::plain;
