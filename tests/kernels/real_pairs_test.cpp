@@ -55,10 +55,16 @@ class real_pair : public testing::TestWithParam<const char*> {
   }
 
   void expect_reference(const settings& with, const char* name) {
+    expect_equal(run_color_fuzzy<tops::color_fuzzy_config>(pair_, with), name);
+  }
+  void expect_reference(const adaptive_ca_settings& with, const char* name) {
+    expect_equal(run_adaptive_ca<tops::adaptive_ca_config>(pair_, with), name);
+  }
+
+  void expect_equal(const disparity_map& map, const char* name) {
     const fs::path file = reference_ / name;
     const cv::Mat reference = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
     ASSERT_EQ(reference.type(), CV_8U) << file;
-    const disparity_map map = run_color_fuzzy<tops::color_fuzzy_config>(pair_, with);
     ASSERT_EQ(map.size(), reference.total());
     int differing = 0;
     for (std::size_t i = 0; i < map.size(); ++i) differing += map[i] != reference.data[i];
@@ -70,13 +76,27 @@ class real_pair : public testing::TestWithParam<const char*> {
   int levels_ = 0;
 };
 
-TEST_P(real_pair, winner_equals_reference) { expect_reference({levels_, false, 0, 0, false}, "color_fuzzy-raw.png"); }
-
-TEST_P(real_pair, confident_winner_equals_reference) {
-  expect_reference({levels_, true, 17, 0, false}, "color_fuzzy-confident.png");
+TEST_P(real_pair, winner_equals_reference) {
+  expect_reference(settings{levels_, false, 0, 0, false}, "color_fuzzy-raw.png");
 }
 
-TEST_P(real_pair, whole_method_equals_reference) { expect_reference({levels_, true, 17, 2, false}, "color_fuzzy.png"); }
+TEST_P(real_pair, confident_winner_equals_reference) {
+  expect_reference(settings{levels_, true, 17, 0, false}, "color_fuzzy-confident.png");
+}
+
+TEST_P(real_pair, whole_method_equals_reference) {
+  expect_reference(settings{levels_, true, 17, 2, false}, "color_fuzzy.png");
+}
+
+TEST_P(real_pair, adaptive_winner_equals_reference) {
+  expect_reference(adaptive_ca_settings{.levels = levels_, .automaton = false}, "adaptive_ca-off.png");
+}
+
+TEST_P(real_pair, automaton_equals_reference_for_every_ring) {
+  expect_reference(adaptive_ca_settings{.levels = levels_, .ring = 1}, "adaptive_ca-r1.png");
+  expect_reference(adaptive_ca_settings{.levels = levels_, .ring = 20}, "adaptive_ca-r20.png");
+  expect_reference(adaptive_ca_settings{.levels = levels_, .ring = 24}, "adaptive_ca-r24.png");
+}
 
 INSTANTIATE_TEST_SUITE_P(shared, real_pair, testing::Values("tsukuba", "venus", "cones", "teddy", "motorcycle", "aloe"),
                          [](const auto& scene) { return std::string(scene.param); });
