@@ -203,6 +203,11 @@ class port_lowering {
     return llvm::cast<llvm::GlobalVariable>(call.getArgOperand(operand)->stripPointerCasts())->getValueType();
   }
 
+  [[nodiscard]] std::vector<leaf> payload_leaves(llvm::Type* type, const source_place& place) const {
+    refuse_members_like_padding(type, *result_.function->getParent(), place);
+    return leaves_of(type, layout(), place);
+  }
+
   /// All scalars by value arrive as one token, taken where the first of them is.
   void lower_arguments(llvm::CallInst& call) {
     if (name_of(call) == "__epiline_argument") {
@@ -212,7 +217,7 @@ class port_lowering {
       }
       llvm::Type* const type = payload_type(call, 2);
       const std::string name = parameter_name(index_of(call));
-      const std::vector<leaf> leaves = leaves_of(type, layout(), top_.place);
+      const std::vector<leaf> leaves = payload_leaves(type, top_.place);
       arguments_.push_back({&call, type, leaves, result_.ports[call_port_].width});
       const bool is_signed = leaves.size() == 1 && leaves[0].is_signed;
       result_.ports[call_port_].fields.push_back(
@@ -263,7 +268,7 @@ class port_lowering {
   }
 
   void write(llvm::CallInst& call, unsigned port, llvm::Value* value, llvm::Type* type) {
-    const std::vector<leaf> leaves = leaves_of(type, layout(), place_of(call));
+    const std::vector<leaf> leaves = payload_leaves(type, place_of(call));
     set_payload(call, port, false, leaves);
     llvm::IRBuilder<> builder(&call);
     make_access(builder, access::write, port, width_of(leaves), {pack_token(builder, value, type, leaves)});
@@ -276,7 +281,7 @@ class port_lowering {
     } else if (name_of(call) == "__epiline_stream_read") {
       const unsigned port = port_of(call);
       llvm::Type* const type = payload_type(call, 2);
-      const std::vector<leaf> leaves = leaves_of(type, layout(), place_of(call));
+      const std::vector<leaf> leaves = payload_leaves(type, place_of(call));
       set_payload(call, port, true, leaves);
       llvm::IRBuilder<> builder(&call);
       llvm::Value* const token =

@@ -1,5 +1,9 @@
 #include "frontend/payload.hpp"
 
+#include <fmt/format.h>
+#include <llvm/BinaryFormat/Dwarf.h>
+#include <llvm/IR/DebugInfo.h>
+
 #include <array>
 
 namespace epiline::frontend {
@@ -80,6 +84,26 @@ struct collector {
   }
 };
 
+/// The last part of a type's name: of "struct.space::record.12" and "record<3>", "record".
+llvm::StringRef short_name(llvm::StringRef name) {
+  name = name.take_until([](char c) { return c == '<'; });
+  if (const std::size_t number = name.find_last_not_of("0123456789");
+      number != llvm::StringRef::npos && number + 1 < name.size() && name[number] == '.')
+    name = name.take_front(number);
+  if (const std::size_t scope = name.rfind("::"); scope != llvm::StringRef::npos) return name.drop_front(scope + 2);
+  return name.drop_front(name.rfind('.') + 1);  // npos + 1 = 0
+}
+
+/// The name of the member that begins at a bit of a C++ struct; "" when none does.
+llvm::StringRef member_at(const llvm::DICompositeType& type, std::uint64_t bit) {
+  for (const llvm::DINode* element : type.getElements())
+    if (const auto* member = llvm::dyn_cast<llvm::DIDerivedType>(element);
+        member != nullptr && member->getTag() == llvm::dwarf::DW_TAG_member && !member->isStaticMember() &&
+        member->getOffsetInBits() == bit && member->getSizeInBits() != 0)
+      return member->getName();
+  return "";
+}
+
 llvm::Value* address_of(llvm::IRBuilderBase& builder, llvm::Value* pointer, llvm::Type* type, const leaf& member) {
   std::vector<llvm::Value*> indices{builder.getInt32(0)};
   for (const unsigned index : member.path) indices.push_back(builder.getInt32(index));
@@ -122,6 +146,31 @@ bool is_arbitrary_precision(llvm::Type* type, unsigned& width, bool& is_signed) 
     }
   }
   return false;
+}
+
+void refuse_members_like_padding(llvm::Type* type, const llvm::Module& module, const source_place& place) {
+  if (auto* array = llvm::dyn_cast<llvm::ArrayType>(type))
+    return refuse_members_like_padding(array->getElementType(), module, place);
+  auto* structure = llvm::dyn_cast<llvm::StructType>(type);
+  if (structure == nullptr) return;
+  const llvm::DataLayout& layout = module.getDataLayout();
+  for (unsigned i = 0; i < structure->getNumElements(); ++i) {
+    refuse_members_like_padding(structure->getElementType(i), module, place);
+    if (!structure->hasName() || !is_padding(*structure, i, layout)) continue;
+    llvm::DebugInfoFinder finder;
+    finder.processModule(module);
+    for (const llvm::DIType* described : finder.types()) {
+      const auto* composite = llvm::dyn_cast<llvm::DICompositeType>(described);
+      if (composite == nullptr || short_name(composite->getName()) != short_name(structure->getName()) ||
+          composite->getSizeInBits() != layout.getTypeAllocSizeInBits(structure))
+        continue;
+      const llvm::StringRef member = member_at(*composite, 8 * layout.getStructLayout(structure)->getElementOffset(i));
+      if (!member.empty())
+        refuse(place, fmt::format("the bytes '{}' of struct '{}' stand where padding would be and cannot be told from "
+                                  "it: make them ap_uint<8>",
+                                  member.str(), composite->getName().str()));
+    }
+  }
 }
 
 std::vector<leaf> leaves_of(llvm::Type* type, const llvm::DataLayout& layout, const source_place& place) {

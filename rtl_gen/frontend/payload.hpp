@@ -3,6 +3,7 @@
 
 #include <llvm/IR/DataLayout.h>
 #include <llvm/IR/IRBuilder.h>
+#include <llvm/IR/Module.h>
 
 #include <string>
 #include <vector>
@@ -28,6 +29,10 @@ bool is_arbitrary_precision(llvm::Type* type, unsigned& width, bool& is_signed);
 /// Whether element `index` fills a gap: clang writes the gaps of a struct that mixes C integers with ap types as
 /// explicit byte arrays.
 [[nodiscard]] bool is_padding(const llvm::StructType& structure, unsigned index, const llvm::DataLayout& layout);
+
+/// Refuses (at `place`) a payload type with a member that is_padding() takes for padding: an array of bytes that fills
+/// the very place where padding would be. The debug information of the module tells.
+void refuse_members_like_padding(llvm::Type* type, const llvm::Module& module, const source_place& place);
 
 /// The leaves of a payload type in order. Refuses (at `place`) floating point, pointers and other foreign types.
 [[nodiscard]] std::vector<leaf> leaves_of(llvm::Type* type, const llvm::DataLayout& layout, const source_place& place);

@@ -104,6 +104,42 @@ TEST(padding, is_what_clang_fills_before_a_c_integer_or_at_the_end) {
   }
 }
 
+// struct record { unsigned char kind; unsigned char bytes[3]; int length; ... } of 16 bytes, and one with a gap
+// instead.
+constexpr const char* two_records = R"(
+%"struct.space::record.7" = type <{ i8, [3 x i8], i32, i8, %u17, [3 x i8] }>
+%struct.gap = type <{ i8, [3 x i8], i32, i8, %u17, [3 x i8] }>
+@record = external global [2 x %"struct.space::record.7"]
+@gap = external global %struct.gap
+!llvm.dbg.cu = !{!0}
+!llvm.module.flags = !{!9}
+!0 = distinct !DICompileUnit(language: DW_LANG_C_plus_plus_14, file: !1, emissionKind: FullDebug, retainedTypes: !2)
+!1 = !DIFile(filename: "kernel.cpp", directory: "/nowhere")
+!2 = !{!3, !4}
+!3 = !DICompositeType(tag: DW_TAG_structure_type, name: "record", file: !1, size: 128, elements: !{!5, !6, !7})
+!4 = !DICompositeType(tag: DW_TAG_structure_type, name: "gap", file: !1, size: 128, elements: !{!5, !7})
+!5 = !DIDerivedType(tag: DW_TAG_member, name: "kind", baseType: !8, size: 8)
+!6 = !DIDerivedType(tag: DW_TAG_member, name: "bytes", baseType: !8, size: 24, offset: 8)
+!7 = !DIDerivedType(tag: DW_TAG_member, name: "length", baseType: !8, size: 32, offset: 32)
+!8 = !DIBasicType(name: "unsigned char", size: 8, encoding: DW_ATE_unsigned_char)
+!9 = !{i32 2, !"Debug Info Version", i32 3}
+)";
+
+TEST(padding, a_member_that_looks_like_it_is_refused_and_a_gap_is_not) {
+  small_module module(std::string(vendor_types) + two_records);
+  llvm::StructType* record = module.type("struct.space::record.7");
+  ASSERT_TRUE(is_padding(*record, 1, module.layout()));
+  const char* const words = "top.cpp:9: error: the bytes 'bytes' of struct 'record' stand where padding would be";
+  EXPECT_THAT(refusal_of([&] { refuse_members_like_padding(record, module.module(), {"top.cpp", 9}); }),
+              HasSubstr(words));
+  EXPECT_THAT(refusal_of([&] {
+                refuse_members_like_padding(llvm::ArrayType::get(record, 2), module.module(), {"top.cpp", 9});
+              }),
+              HasSubstr(words));
+  EXPECT_EQ(
+      refusal_of([&] { refuse_members_like_padding(module.type("struct.gap"), module.module(), {"top.cpp", 9}); }), "");
+}
+
 TEST(fields, one_group_for_each_axi_stream_member) {
   // As ap_axi_sdata.h tags its members: 1 tdata, 2 tkeep, 4 tuser, 5 tlast.
   small_module module(with(R"(

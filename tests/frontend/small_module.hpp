@@ -35,6 +35,7 @@ class small_module {
       throw std::invalid_argument(error.getMessage().str() + ": " + error.getLineContents().str());
   }
 
+  [[nodiscard]] const llvm::Module& module() const { return *module_; }
   [[nodiscard]] llvm::Function& function(const char* name = "f") { return *module_->getFunction(name); }
   [[nodiscard]] llvm::StructType* type(const char* name) { return llvm::StructType::getTypeByName(context_, name); }
   [[nodiscard]] const llvm::DataLayout& layout() const { return module_->getDataLayout(); }
