@@ -66,22 +66,31 @@ std::vector<report::method> methods_of(const evaluate_options& options, const en
   return methods;
 }
 
-std::vector<pair_entry> chosen_entries(const evaluate_options& options) {
+/// The pairs of the list and the synthetic one, or those of them that --only names.
+std::vector<report::pair_result> chosen_pairs(const evaluate_options& options) {
   auto entries = read_pair_list(options.pairs);
-  if (options.only.empty()) return entries;
-  std::vector<std::string_view> known;
-  for (const auto& entry : entries) known.push_back(entry.scene);
-  for (const auto& name : options.only) {
-    if (std::ranges::find(known, name) != known.end()) continue;
-    const auto closest = closest_name(name, known);
-    throw usage_error(fmt::format("{} has no pair '{}'{}; its pairs: {}", options.pairs, name,
-                                  closest.empty() ? "" : fmt::format(" (did you mean {}?)", closest),
-                                  fmt::join(known, ", ")));
+  bool with_corridor = std::ranges::find(entries, report::corridor_name, &pair_entry::scene) == entries.end();
+  if (!options.only.empty()) {
+    std::vector<std::string_view> known;
+    for (const auto& entry : entries) known.push_back(entry.scene);
+    if (with_corridor) known.push_back(report::corridor_name);
+    for (const auto& name : options.only) {
+      if (std::ranges::find(known, name) != known.end()) continue;
+      const auto closest = closest_name(name, known);
+      throw usage_error(fmt::format("there is no pair '{}'{}; pairs: {}", name,
+                                    closest.empty() ? "" : fmt::format(" (did you mean {}?)", closest),
+                                    fmt::join(known, ", ")));
+    }
+    const auto unwanted = [&](std::string_view name) {
+      return std::ranges::find(options.only, name) == options.only.end();
+    };
+    std::erase_if(entries, [&](const pair_entry& entry) { return unwanted(entry.scene); });
+    with_corridor = with_corridor && !unwanted(report::corridor_name);
   }
-  std::erase_if(entries, [&](const pair_entry& entry) {
-    return std::ranges::find(options.only, entry.scene) == options.only.end();
-  });
-  return entries;
+  auto pairs = report::read_pairs(entries, pair_folders(options.pairs, options.data));
+  if (options.skip_missing) std::erase_if(pairs, [](const report::pair_result& pair) { return pair.missing; });
+  if (with_corridor) pairs.push_back(report::synthetic_corridor());
+  return pairs;
 }
 
 /// What to type to get the same report.
@@ -129,12 +138,9 @@ bool run(const evaluate_options& options, const engine_registry& registry) {
   const auto start = std::chrono::steady_clock::now();
   auto methods = methods_of(options, registry);
   const auto timing = options.timing.empty() ? report::timings{} : report::read_timings(options.timing);
-  const auto entries = chosen_entries(options);
   report::require_report_folder(options.output);
-
-  auto found = report::evaluate(options.engine, std::move(methods), entries, pair_folders(options.pairs, options.data),
-                                options.jobs, show_progress);
-  if (options.skip_missing) std::erase_if(found.pairs, &report::pair_result::missing);
+  const auto found =
+      report::evaluate(options.engine, std::move(methods), chosen_pairs(options), options.jobs, show_progress);
   print_results(found);
   const report::report_contents contents{found, timing, EPILINE_VERSION, command_of(options)};
   report::write_report_folder(
@@ -175,7 +181,9 @@ void add_evaluate_command(CLI::App& application, const engine_registry& registry
       ->add_option("--timing", options->timing,
                    "measured clocks a frame and clock frequency, as scripts/frame_rates.py writes them")
       ->option_text("FILE.json");
-  command->add_option("--only", options->only, "only this pair; may be repeated")
+  command
+      ->add_option("--only", options->only,
+                   "only this pair, of the list or corridor, which is synthetic; may be repeated")
       ->option_text("PAIR")
       ->allow_extra_args(false);
   command->add_flag("--skip-missing", options->skip_missing,

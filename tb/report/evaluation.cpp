@@ -8,7 +8,9 @@
 #include <opencv2/core.hpp>
 #include <stdexcept>
 
+#include "eval/truth_masks.hpp"
 #include "report/forked_tasks.hpp"
+#include "scenes/render.hpp"
 
 namespace epiline::report {
 namespace {
@@ -100,12 +102,39 @@ bool evaluation::complete() const {
   });
 }
 
-evaluation evaluate(std::string engine, std::vector<method> methods, const std::vector<eval::pair_entry>& entries,
-                    const std::vector<std::filesystem::path>& folders, int jobs, const progress_function& progress) {
-  cv::setNumThreads(1);  // copies of this process have none of its threads; the cores are busy anyway
-  evaluation found{std::move(engine), std::move(methods), {}};
-  for (const auto& entry : entries) found.pairs.push_back(read_pair(entry, folders));
+pair_result synthetic_corridor() {
+  constexpr scenes::scene_parameters parameters{.width = 384, .height = 288, .levels = 16, .noise = 2};
+  const auto scene = scenes::render(corridor_name, parameters);
+  pair_result made;
+  made.synthetic = true;
+  made.entry.scene = corridor_name;
+  made.entry.family =
+      fmt::format("Rendered by this project (tb/scenes, seed {}, noise of {} grey levels), not the paper's picture",
+                  parameters.seed, parameters.noise);
+  made.entry.levels = parameters.levels;
+  made.pair.emplace();
+  made.pair->entry = made.entry;
+  made.pair->left = scene.left.image;
+  made.pair->right = scene.right.image;
+  eval::ground_truth truth{scene.left.disparity, std::nullopt, scene.left.visible, std::nullopt};
+  truth.near_discontinuity = eval::both(eval::near_discontinuities(truth.disparity), *truth.non_occluded);
+  made.pair->truth = std::move(truth);
+  made.pair->non_occluded_source = "exact, of the rendered scene";
+  made.pair->near_discontinuity_source = "derived from the truth, non-occluded pixels only";
+  return made;
+}
 
+std::vector<pair_result> read_pairs(const std::vector<eval::pair_entry>& entries,
+                                    const std::vector<std::filesystem::path>& folders) {
+  std::vector<pair_result> pairs;
+  for (const auto& entry : entries) pairs.push_back(read_pair(entry, folders));
+  return pairs;
+}
+
+evaluation evaluate(std::string engine, std::vector<method> methods, std::vector<pair_result> pairs, int jobs,
+                    const progress_function& progress) {
+  cv::setNumThreads(1);  // copies of this process have none of its threads; the cores are busy anyway
+  evaluation found{std::move(engine), std::move(methods), std::move(pairs)};
   struct place {
     std::size_t pair;
     std::size_t method;

@@ -39,14 +39,20 @@ struct evaluation {
   [[nodiscard]] bool complete() const;
 };
 
+/// A pair that tb/scenes renders with its exact truth, in place of one whose truth is not public: the paper's Corridor.
+[[nodiscard]] pair_result synthetic_corridor();
+inline constexpr std::string_view corridor_name = "corridor";
+
 /// Called as work proceeds: how many of how many maps are done, and which one was done last.
 using progress_function = std::function<void(std::size_t done, std::size_t all, const std::string& last)>;
 
-/// Reads the pairs from `folders`, and runs `jobs` maps at a time, each in a process of its own. What goes wrong with a
-/// pair or a map is written down there and keeps nothing else from being evaluated.
-[[nodiscard]] evaluation evaluate(std::string engine, std::vector<method> methods,
-                                  const std::vector<eval::pair_entry>& entries,
-                                  const std::vector<std::filesystem::path>& folders, int jobs,
-                                  const progress_function& progress);
+/// Reads the pairs of a list. What goes wrong with one is written down in it.
+[[nodiscard]] std::vector<pair_result> read_pairs(const std::vector<eval::pair_entry>& entries,
+                                                  const std::vector<std::filesystem::path>& folders);
+
+/// Runs every method on every pair that could be read, `jobs` maps at a time, each in a process of its own. What goes
+/// wrong with a map is written down in its place and keeps nothing else from being evaluated.
+[[nodiscard]] evaluation evaluate(std::string engine, std::vector<method> methods, std::vector<pair_result> pairs,
+                                  int jobs, const progress_function& progress);
 
 }  // namespace epiline::report

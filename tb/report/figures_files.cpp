@@ -57,7 +57,9 @@ ordered_json paper_json(const report_contents& contents) {
       cells[std::string(printed_scenes()[s].scene)] = {
           {"accuracy", row.cells[s]->accuracy}, {"coverage", coverage ? ordered_json(*coverage) : ordered_json()}};
     }
-    json["accuracy"].push_back({{"row", row.title}, {"method", row.method}, {"printed", cells}});
+    ordered_json ours;
+    for (const auto& each : row.ours) ours.push_back(each.method);
+    json["accuracy"].push_back({{"row", row.title}, {"methods", ours}, {"printed", cells}});
   }
   for (const auto& speed : printed_speeds()) {
     ordered_json entry = {{"design", speed.design}, {"printed_line", law_json(speed.line)}};

@@ -29,9 +29,8 @@ std::string escaped(std::string_view text) {
 
 std::string table(std::string_view caption, std::string_view head, std::string_view body) {
   return fmt::format(
-      "<div class=\"scroll\" "
-      "tabindex=\"0\">\n<table>\n<caption>{}</caption>\n<thead>\n{}</thead>\n<tbody>\n{}</tbody>\n"
-      "</table>\n</div>\n",
+      "<p class=\"caption\">{}</p>\n<div class=\"scroll\" tabindex=\"0\">\n<table>\n<thead>\n{}</thead>\n<tbody>\n{}"
+      "</tbody>\n</table>\n</div>\n",
       caption, head, body);
 }
 
@@ -41,6 +40,10 @@ std::string cell(std::string_view contents, std::string_view kind) {
 
 std::string row_name(std::string_view contents) {
   return fmt::format("<th scope=\"row\" class=\"first\">{}</th>", contents);
+}
+
+std::string group_name(std::string_view contents, std::size_t rows) {
+  return fmt::format("<th scope=\"rowgroup\" class=\"first\" rowspan=\"{}\">{}</th>", rows, contents);
 }
 
 std::string number(double value, int decimals) {

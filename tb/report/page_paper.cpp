@@ -30,26 +30,30 @@ std::string accuracy_table(const evaluation& found) {
   head += "</tr>\n";
   std::string body;
   for (const auto& row : printed_rows()) {
-    std::string paper;
-    std::string all;
-    std::string seen;
-    for (std::size_t s = 0; s < row.cells.size(); ++s) {
-      const auto& printed = row.cells[s];
-      paper += cell(!printed            ? std::string(no_value)
-                    : printed->coverage ? fmt::format("{} / {}", printed->accuracy, *printed->coverage)
-                                        : fmt::format("{} / {}", printed->accuracy, no_value));
-      const auto* figures = figures_of(found, printed_scenes()[s].scene, row.method);
-      all +=
-          cell(figures ? accuracy_and_coverage(figures->all->accuracy(), figures->coverage()) : std::string(no_value));
-      seen += cell(figures && figures->non_occluded
-                       ? accuracy_and_coverage(figures->non_occluded->accuracy(), figures->non_occluded->coverage())
-                       : std::string(no_value));
+    body += fmt::format("<tr class=\"paper\">{}<td class=\"text\">paper prints</td>",
+                        group_name(escaped(row.title), 1 + 2 * row.ours.size()));
+    for (const auto& printed : row.cells) {
+      body += cell(!printed            ? std::string(no_value)
+                   : printed->coverage ? fmt::format("{} / {}", printed->accuracy, *printed->coverage)
+                                       : fmt::format("{} / {}", printed->accuracy, no_value));
     }
-    body += fmt::format(
-        "<tr class=\"paper\">{}<td class=\"text\">paper prints</td>{}</tr>\n"
-        "<tr>{}<td class=\"text\">ours, all pixels</td>{}</tr>\n"
-        "<tr>{}<td class=\"text\">ours, non-occluded</td>{}</tr>\n",
-        row_name(escaped(row.title)), paper, row_name(""), all, row_name(""), seen);
+    body += "</tr>\n";
+    for (const auto& ours : row.ours) {
+      std::string all;
+      std::string seen;
+      for (const auto& scene : printed_scenes()) {
+        const auto* figures = figures_of(found, scene.scene, ours.method);
+        all += cell(figures == nullptr ? std::string(no_value)
+                                       : accuracy_and_coverage(figures->all->accuracy(), figures->coverage()));
+        seen += cell(figures == nullptr || !figures->non_occluded
+                         ? std::string(no_value)
+                         : accuracy_and_coverage(figures->non_occluded->accuracy(), figures->non_occluded->coverage()));
+      }
+      body += fmt::format(
+          "<tr><td class=\"text\">{0}, all pixels</td>{1}</tr>\n<tr><td class=\"text\">{0}, "
+          "non-occluded</td>{2}</tr>\n",
+          ours.title, all, seen);
+    }
   }
   return table("Accuracy / coverage in per cent", head, body);
 }
@@ -88,14 +92,15 @@ std::string frame_rate_table(const report_contents& contents) {
   head += "<th class=\"text wrap\">logic, clock</th></tr>\n";
   std::string body;
   for (const auto& speed : printed_speeds()) {
-    body += fmt::format("<tr class=\"paper\">{}<td class=\"text\">paper prints</td>", row_name(speed.title));
+    const auto* timing = timing_of(contents, speed.design);
+    body += fmt::format("<tr class=\"paper\">{}<td class=\"text\">paper prints</td>",
+                        group_name(speed.title, timing == nullptr ? 2 : 3));
     for (const double frames : speed.frames) body += cell(number(frames, 0));
     body += cell(escaped(speed.resources), "text wrap") + "</tr>\n";
-    const auto* timing = timing_of(contents, speed.design);
     const auto columns = printed_sizes().size() + 1;
     if (timing == nullptr) {
-      body += fmt::format("<tr>{}<td class=\"text\">ours</td><td class=\"text\" colspan=\"{}\">{}</td></tr>\n",
-                          row_name(""), columns, how_to_time);
+      body += fmt::format("<tr><td class=\"text\">ours</td><td class=\"text\" colspan=\"{}\">{}</td></tr>\n", columns,
+                          how_to_time);
       continue;
     }
     std::string rates;
@@ -107,9 +112,9 @@ std::string frame_rate_table(const report_contents& contents) {
       clocks += cell(count ? number(*count, 0) : std::string(no_value));
     }
     body +=
-        fmt::format("<tr>{}<td class=\"text\">ours</td>{}{}</tr>\n", row_name(""), rates,
+        fmt::format("<tr><td class=\"text\">ours</td>{}{}</tr>\n", rates,
                     cell(fmt::format("{:.1f} MHz: {}", timing->megahertz, escaped(timing->clock_source)), "text wrap"));
-    body += fmt::format("<tr>{}<td class=\"text\">ours, clocks a frame</td>{}{}</tr>\n", row_name(""), clocks,
+    body += fmt::format("<tr><td class=\"text\">ours, clocks a frame</td>{}{}</tr>\n", clocks,
                         cell(escaped(timing->cycles_source), "text wrap"));
   }
   return table(
@@ -119,7 +124,9 @@ std::string frame_rate_table(const report_contents& contents) {
 }
 
 std::string law_text(const power_law& law) {
-  return fmt::format("{:.3g} &middot; (w&sup2;)<sup>{:.3f}</sup>", law.factor, law.exponent);
+  const int power = static_cast<int>(std::floor(std::log10(law.factor)));
+  return fmt::format("{:.3g} &middot; 10<sup>{}</sup> &middot; (w&sup2;)<sup>{:.3f}</sup>",
+                     law.factor / std::pow(10, power), power, law.exponent);
 }
 
 std::string line_table(const report_contents& contents) {
@@ -161,7 +168,7 @@ std::string time_table(const report_contents& contents) {
   return table(
       "Milliseconds a pair. Ours: clocks a frame over the clock of the table above; the hardware always searches "
       "its 80 levels at once, so fewer levels take no less time.",
-      "<tr><th>Method</th><th>pair</th><th>paper prints</th><th>ours</th></tr>\n", body);
+      "<tr><th>Method</th><th class=\"text\">pair</th><th>paper prints</th><th>ours</th></tr>\n", body);
 }
 
 std::string membership_table() {
@@ -182,7 +189,8 @@ std::string membership_table() {
 
 std::string paper_section(const report_contents& contents) {
   return "<h2 id=\"paper\">The paper's tables</h2>\n"
-         "<p>C. Georgoulas, I. Andreadis: <i>Real-Time Stereo Vision Techniques</i>. What it prints is in grey; below "
+         "<p>C. Georgoulas, I. Andreadis: <i>Real-Time Stereo Vision Techniques</i>. What it prints is in grey "
+         "italics; below "
          "it "
          "stands what this project measures or computes.</p>\n"
          "<h3 id=\"paper-accuracy\">Accuracy and coverage of the methods</h3>\n" +

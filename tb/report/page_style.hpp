@@ -21,26 +21,26 @@ h2 { font-size: 1.35rem; line-height: 1.25; margin: 3rem 0 .5rem; padding-top: .
 h3 { font-size: 1.08rem; margin: 1.8rem 0 .4rem; }
 p, ul, dl { max-width: 46rem; }
 a { color: var(--link); }
-.soft, figcaption, caption { color: var(--soft); font-size: .88rem; }
+.soft, figcaption, .caption { color: var(--soft); font-size: .88rem; }
 code { font: .86em ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace; overflow-wrap: anywhere; }
 nav ul { display: flex; flex-wrap: wrap; gap: .3rem 1rem; padding: 0; list-style: none; max-width: none; }
-.scroll { overflow-x: auto; margin: .6rem 0 1rem; border: 1px solid var(--line); border-radius: .4rem; }
+.scroll { overflow-x: auto; margin: 0 0 1rem; border: 1px solid var(--line); border-radius: .4rem; }
 table { border-collapse: collapse; width: 100%; font-size: .9rem; font-variant-numeric: tabular-nums; }
-caption { text-align: left; padding: .5rem .6rem; }
+.caption { margin: 1rem 0 .3rem; max-width: 60rem; }
 th, td { padding: .3rem .6rem; border-bottom: 1px solid var(--line); text-align: right; white-space: nowrap; vertical-align: top; }
 tbody tr:last-child > * { border-bottom: 0; }
 th { font-weight: 600; }
-thead th { background: var(--card); }
-th[scope=row], th[scope=rowgroup], td.text { text-align: left; }
-th[scope=row] { font-weight: 500; }
-th[scope=row].first { position: sticky; left: 0; background: var(--paper); border-right: 1px solid var(--line); }
+thead th { background: var(--card); white-space: normal; vertical-align: bottom; }
+th[scope=row], th[scope=rowgroup], td.text, th.text { text-align: left; }
+th[scope=row], th[scope=rowgroup] { font-weight: 500; }
+th.first { position: sticky; left: 0; background: var(--paper); border-right: 1px solid var(--line); }
 thead th:first-child { text-align: left; }
 th.group { text-align: center; border-left: 1px solid var(--line); }
 td.starts, th.starts { border-left: 1px solid var(--line); }
 td.wrap, th.wrap { white-space: normal; min-width: 14rem; }
 td.best { color: var(--best); background: var(--best-paper); font-weight: 700; }
 tr.final > th[scope=row] { font-weight: 700; }
-tr.paper > * { color: var(--soft); }
+tr.paper > td { color: var(--soft); font-style: italic; }
 .alarm { border: 1px solid var(--alarm); background: var(--alarm-paper); color: var(--alarm); border-radius: .4rem;
   padding: .2rem .9rem; max-width: none; }
 .scale { display: flex; flex-wrap: wrap; align-items: center; gap: .4rem 1.4rem; font-size: .85rem; color: var(--soft);
@@ -63,7 +63,7 @@ dd { margin-left: 1rem; }
   h2 { font-size: 1.15rem; }
   table { font-size: .82rem; }
   th, td { padding: .28rem .45rem; }
-  th[scope=row].first { max-width: 9.5rem; white-space: normal; }
+  th.first { min-width: 8rem; max-width: 9rem; white-space: normal; }
 }
 @media print { figure, table { break-inside: avoid; } }
 )css";

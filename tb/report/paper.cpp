@@ -23,15 +23,17 @@ std::span<const printed_row> printed_rows() {
   using cell = printed_accuracy;
   static const std::vector<printed_row> rows = {
       {"Method 1, no automaton",
-       "adaptive_ca-off",
+       {counterpart{"adaptive_ca-off", "ours"}},
        {cell{55, 88}, std::nullopt, cell{36, 98}, cell{48, 65}, cell{90, 49}}},
       {"Method 1, automaton",
-       "adaptive_ca-r24",
+       {counterpart{"adaptive_ca-r24", "ours, R = 24"}, counterpart{"adaptive_ca-r1", "ours, R = 1 as in the paper"}},
        {cell{88, 51}, cell{92, std::nullopt}, cell{81, 75}, cell{72, 56}, cell{93, 47}}},
       {"Method 2, no FIS",
-       "color_fuzzy-confident",
+       {counterpart{"color_fuzzy-confident", "ours"}},
        {cell{94, 77}, cell{93, 75}, std::nullopt, cell{99, 80}, cell{98, 77}}},
-      {"Method 2, FIS", "color_fuzzy-fis", {cell{89, 92}, cell{92, 90}, std::nullopt, cell{99, 93}, cell{98, 88}}},
+      {"Method 2, FIS",
+       {counterpart{"color_fuzzy-fis", "ours"}},
+       {cell{89, 92}, cell{92, 90}, std::nullopt, cell{99, 93}, cell{98, 88}}},
   };
   return rows;
 }

@@ -21,10 +21,16 @@ struct printed_scene {
   std::string_view title;
 };
 
-/// A row of the table; `method` is the id of ours that it stands beside.
+/// A method of ours that stands beside a row of the paper.
+struct counterpart {
+  std::string_view method;  // its id
+  std::string_view title;   // how its figures are called there
+};
+
+/// A row of the table.
 struct printed_row {
   std::string_view title;
-  std::string_view method;
+  std::vector<counterpart> ours;
   std::vector<std::optional<printed_accuracy>> cells;  // a scene each
 };
 
