@@ -144,13 +144,6 @@ class ca_filter {
     return (label & defined) != 0 && equal_cells(label, neighbour) >= 7;
   }
 
-  /// Who claims a pixel.
-  struct claim {
-    label_t label;
-    ap_uint<1> any;
-    ap_uint<1> several;
-  };
-
   static label_t rule2(const ring_window& labels, int lane, ring_t ring) {
 #pragma HLS INLINE
     label_t cells[ring_cells];
@@ -167,21 +160,15 @@ class ca_filter {
         }
       }
     }
-    claim claims[9];
+    // All who claim the pixel are of one level iff their labels' union is their intersection.
+    label_t any = 0;
+    label_t all = ~label_t(0);
     for (int i = 0; i < 9; ++i) {
-      claims[i].label = near[i];
-      claims[i].any = (near[i] & defined) != 0 && equal_cells(near[i], cells) >= ring;
-      claims[i].several = 0;
+      const bool claims = (near[i] & defined) != 0 && equal_cells(near[i], cells) >= ring;
+      any = any | (claims ? near[i] : label_t(0));
+      all = all & (claims ? near[i] : label_t(~label_t(0)));
     }
-    // Neighbours of the same level make the same claim.
-    const claim all = window::reduce(claims, [](const claim& a, const claim& b) {
-      claim both;
-      both.label = a.any ? a.label : b.label;
-      both.any = a.any | b.any;
-      both.several = a.several | b.several | (a.any & b.any & ap_uint<1>(a.label != b.label));
-      return both;
-    });
-    return all.any && !all.several ? all.label : label_t(0);
+    return any == all ? any : label_t(0);
   }
 
   /// How many of cells[First .. First + Count - 1] equal the label: a tree whose leaves keep their order in memory,
