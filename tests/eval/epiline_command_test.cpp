@@ -12,6 +12,7 @@
 #include "eval/image_files.hpp"
 #include "eval/random_images.hpp"
 #include "eval/scratch_folder.hpp"
+#include "scenes/render.hpp"
 
 namespace epiline::eval {
 namespace {
@@ -221,6 +222,55 @@ TEST_F(epiline_command, has_help_and_version) {
   EXPECT_THAT(run("--version").output, testing::MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+\n"));
 }
 
+TEST_F(epiline_command, renders_a_scene_that_match_can_measure) {
+  const auto result = run("scene steps -o made/steps --width 96 --height 40 --levels 24 --seed 7 --noise 1.5 --gain 1.1 "
+                          "--offset -3 --misalignment 0.5");
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_THAT(result.output, AllOf(HasSubstr("steps 96x40, 24 levels"), HasSubstr("made/steps")));
+  const auto pair = scenes::render("steps", {.width = 96, .height = 40, .levels = 24, .seed = 7, .noise = 1.5,
+                                             .gain = 1.1, .offset = -3, .misalignment = 0.5});
+  for (const auto& [side, view] : {std::pair{"left", &pair.left}, {"right", &pair.right}}) {
+    const std::string name = side;
+    EXPECT_EQ(read_stereo_image(folder_ / ("made/steps/" + name + ".png")).pixels, view->image.pixels);
+    EXPECT_EQ(read_truth(folder_ / ("made/steps/disp_" + name + ".pfm")).values, view->disparity.values);
+    EXPECT_EQ(read_mask(folder_ / ("made/steps/mask_nonocc_" + name + ".png")).selected, view->visible.selected);
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "made/steps"), {}), 6);
+
+  const auto measured = run("match made/steps/left.png made/steps/right.png --levels 24 --truth made/steps/disp_left.pfm "
+                            "--mask-nonocc made/steps/mask_nonocc_left.png --json figures.json");
+  EXPECT_EQ(measured.exit_code, 0) << measured.errors;
+  EXPECT_GT(nlohmann::json::parse(test::read_file(folder_ / "figures.json"))["accuracy"], 50);
+  // Again into the same folder: replaced.
+  EXPECT_EQ(run("scene steps -o made/steps --width 8 --height 8").exit_code, 0);
+  EXPECT_EQ(read_stereo_image(folder_ / "made/steps/left.png").width, 8);
+}
+
+TEST_F(epiline_command, lists_scenes) {
+  const auto result = run("scene --list");
+  EXPECT_EQ(result.exit_code, 0);
+  for (const auto& scene : scenes::all_scenes()) EXPECT_THAT(result.output, HasSubstr(std::string(scene.name)));
+}
+
+TEST_F(epiline_command, refuses_bad_scenes) {
+  expect_error("scene corridr -o new", "unknown scene 'corridr'", "did you mean corridor?");
+  expect_error("scene tunnel -o new", "unknown scene 'tunnel'", "scenes: corridor, slanted");
+  expect_error("scene -o new", "name a scene", "--list");
+  expect_error("scene corridor", "-o FOLDER");
+  expect_error("scene corridor -o new --width 0", "width is 0", "1 to 4096");
+  expect_error("scene corridor -o new --height 5000", "height is 5000", "1 to 4096");
+  expect_error("scene corridor -o new --levels 1", "levels is 1", "2 to 256");
+  expect_error("scene corridor -o new --noise -1", "noise is -1", "0 to 64");
+  expect_error("scene corridor -o new --gain nan", "gain is nan", "0.1 to 10");
+  expect_error("scene corridor -o new --offset 300", "offset is 300", "-255 to 255");
+  expect_error("scene corridor -o new --misalignment 17", "misalignment is 17", "-16 to 16");
+  expect_error("scene corridor -o new --noise much", "--noise", "much");
+  expect_error("scene corridor -o new --seed -1", "--seed", "-1");
+  expect_error("scene corridor steps -o new", "steps");
+  expect_error("scene corridor -o left.png", "left.png", "folder");
+  expect_error("scene corridor -o /proc/new", "/proc/new", "choose a folder");
+}
+
 // ---- bad input
 // ---------------------------------------------------------------------------------------------------------
 
@@ -305,6 +355,123 @@ TEST_F(epiline_command, refuses_truth_that_does_not_fit) {
   expect_error("match left.png right.png -o m.pfm --truth truth.png --truth-scale 0", "not above 0");
   expect_error("match left.png right.png -o m.pfm --mask small.png", "--truth", "missing");
   expect_error("match left.png right.png -o m.pfm --truth-scale 4", "--truth", "missing");
+}
+
+/// With a list of two pairs, "a" and "b", whose truth is 3 everywhere.
+class epiline_evaluate : public epiline_command {
+ protected:
+  epiline_evaluate() {
+    for (const char* scene : {"a", "b"}) {
+      std::filesystem::create_directory(folder_ / scene);
+      for (const char* name : {"left.png", "right.png"}) {
+        std::filesystem::copy_file(folder_ / name, folder_ / (std::string(scene) + "/" + name));
+      }
+      cv::imwrite(folder_ / (std::string(scene) + "/disp_left.png"), cv::Mat(20, 60, CV_8UC1, cv::Scalar(12)));
+    }
+    test::write_file(folder_ / "pairs.json", "[" + entry("a") + ", " + entry("b") + "]");
+  }
+
+  static std::string entry(const std::string& scene) {
+    return R"({"scene": ")" + scene +
+           R"(", "levels": 12, "truth_scale": 4, "files": {"left.png": "0", "right.png": "0", "disp_left.png": "0"}})";
+  }
+
+  nlohmann::json figures(const std::string& report = "report") const {
+    return nlohmann::json::parse(test::read_file(folder_ / (report + "/figures.json")));
+  }
+};
+
+TEST_F(epiline_evaluate, writes_a_page_and_figures_that_match_gives_too) {
+  const auto result = run("evaluate --design all --pairs pairs.json -o report -j 2");
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(result.errors, "");
+  EXPECT_THAT(result.output, AllOf(HasSubstr("a 60x20, 12 levels"), HasSubstr("report/index.html")));
+  const auto page = test::read_file(folder_ / "report/index.html");
+  EXPECT_THAT(page, AllOf(StartsWith("<!DOCTYPE html>"), HasSubstr("Corridor (synthetic)"), HasSubstr("</html>")));
+  const auto report = figures();
+  EXPECT_EQ(report["complete"], true);
+  ASSERT_EQ(report["pairs"].size(), 3u);
+  EXPECT_EQ(report["pairs"][2]["synthetic"], true);
+
+  ASSERT_EQ(run("match --design color_fuzzy left.png right.png --levels 12 --set fuzzy=0 --truth a/disp_left.png "
+                "--truth-scale 4 --json match.json")
+                .exit_code,
+            0);
+  const auto match = nlohmann::json::parse(test::read_file(folder_ / "match.json"));
+  const auto& same = report["pairs"][0]["methods"]["color_fuzzy-confident"];
+  for (const char* figure : {"pixels", "defined", "coverage", "known", "correct", "accuracy", "bad_0.5", "bad_1",
+                             "bad_2", "bad_1_or_undefined", "average_error"}) {
+    EXPECT_EQ(same[figure], match[figure]) << figure;
+  }
+}
+
+TEST_F(epiline_evaluate, gives_the_same_on_one_core_and_with_another_engine) {
+  ASSERT_EQ(run("evaluate --pairs pairs.json -o one -j 1 --only a").exit_code, 0);
+  ASSERT_EQ(run("evaluate --pairs pairs.json -o many -j 3 --only a").exit_code, 0);
+  ASSERT_EQ(run("evaluate --pairs pairs.json -o golden --engine golden --only a").exit_code, 0);
+  const auto without_time = [&](const std::string& report) {
+    auto pairs = figures(report)["pairs"];
+    for (auto& pair : pairs) {
+      for (auto& method : pair["methods"]) method.erase("seconds");
+    }
+    return pairs;
+  };
+  EXPECT_EQ(without_time("one").size(), 1u);
+  EXPECT_EQ(without_time("one"), without_time("many"));
+  EXPECT_EQ(without_time("one"), without_time("golden"));
+}
+
+TEST_F(epiline_evaluate, evaluates_the_others_when_a_pair_is_missing_or_broken) {
+  std::filesystem::remove_all(folder_ / "a");
+  cv::imwrite(folder_ / "b/disp_left.png", cv::Mat(20, 61, CV_8UC1, cv::Scalar(12)));
+  const auto result = run("evaluate --design color_fuzzy --pairs pairs.json -o report");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.output, AllOf(HasSubstr("a: not evaluated: no folder 'a'"), HasSubstr("b: not evaluated"),
+                                   HasSubstr("61x20"), HasSubstr("corridor 384x288")));
+  EXPECT_THAT(test::read_file(folder_ / "report/index.html"),
+              AllOf(HasSubstr("Not everything could be evaluated"), HasSubstr("61x20")));
+  EXPECT_EQ(figures()["complete"], false);
+  EXPECT_EQ(figures()["pairs"][0]["missing"], true);
+  EXPECT_TRUE(figures()["pairs"][2].contains("methods"));
+
+  EXPECT_EQ(run("evaluate --design color_fuzzy --pairs pairs.json -o report --only a --skip-missing").exit_code, 0);
+  EXPECT_EQ(run("evaluate --design color_fuzzy --pairs pairs.json -o report --only a --only corridor").exit_code, 1);
+}
+
+TEST_F(epiline_evaluate, reports_a_map_that_cannot_be_computed) {
+  // The list allows 128 levels, the designs have 80.
+  auto list = test::read_file(folder_ / "pairs.json");
+  list.replace(list.find("12"), 2, "99");
+  test::write_file(folder_ / "pairs.json", list);
+  const auto result = run("evaluate --design color_fuzzy --pairs pairs.json -o report --only a --only b");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.output, HasSubstr("failed: levels is 99, but design color_fuzzy takes 1 to 80"));
+  EXPECT_TRUE(figures()["pairs"][0]["methods"]["opencv-stereobm"].contains("accuracy"));
+  EXPECT_TRUE(figures()["pairs"][1]["methods"]["color_fuzzy-fis"].contains("accuracy"));
+}
+
+TEST_F(epiline_evaluate, refuses_wrong_usage_before_it_computes) {
+  const std::string good = "evaluate --pairs pairs.json -o report ";
+  expect_error("evaluate --pairs pairs.json", "--output");
+  expect_error(good + "--design color_fuzy", "color_fuzy", "did you mean color_fuzzy");
+  expect_error(good + "--design color_fuzzy,color_fuzzy", "twice");
+  expect_error(good + "--engine nativ", "nativ", "did you mean native");
+  expect_error(good + "--only c", "no pair 'c'", "a, b, corridor");
+  expect_error(good + "-j 0", "--jobs", "1 to 256");
+  expect_error(good + "--timing none.json", "none.json");
+  expect_error("evaluate --pairs none.json -o report", "none.json");
+  expect_error("evaluate --pairs pairs.json -o missing/report", "missing/report");
+  expect_error("evaluate --pairs pairs.json -o a", "left.png", "would be lost");
+  expect_error("evaluate --pairs pairs.json -o left.png", "it is a file");
+  test::write_file(folder_ / "pairs.json", "[" + entry("a") + R"(, {"scene": "b", "levels": "many"}])");
+  expect_error(good, "pairs.json", "[1].levels", "1 to 128");
+}
+
+TEST_F(epiline_evaluate, replaces_an_earlier_report_whole) {
+  ASSERT_EQ(run("evaluate --design color_fuzzy --pairs pairs.json -o report --only a").exit_code, 0);
+  ASSERT_EQ(run("evaluate --design color_fuzzy --pairs pairs.json -o report --only b").exit_code, 0);
+  EXPECT_EQ(figures()["pairs"][0]["scene"], "b");
+  EXPECT_THAT(folder_.contents(), Not(testing::Contains(StartsWith("."))));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <random>
 #include <stdexcept>
 
 namespace epiline::eval {
@@ -62,6 +63,81 @@ TEST(measure, leaves_unknown_truth_and_masked_pixels_out) {
   EXPECT_EQ(figures.defined, 3u);  // coverage is over the whole map
 }
 
+TEST(measure, counts_subpixel_disparities_and_pixels_near_discontinuities) {
+  const real_map map{5, 1, {3.0625, 3.5, 4.0625, unknown, 6}};
+  ground_truth truth{{5, 1, {3, 3, 3, 3, 3}}, std::nullopt, std::nullopt};
+  truth.evaluated = pixel_mask{5, 1, {true, true, true, true, false}};
+  truth.near_discontinuity = pixel_mask{5, 1, {false, false, true, true, true}};
+  const auto figures = measure(map, &truth);
+  EXPECT_EQ(figures.defined, 4u);
+  EXPECT_EQ(figures.all->known, 4u);
+  EXPECT_EQ(figures.all->defined, 3u);
+  EXPECT_EQ(figures.all->correct, 2u);
+  EXPECT_EQ(figures.all->bad_half, 1u);
+  EXPECT_DOUBLE_EQ(figures.all->average_error(), (0.0625 + 0.5 + 1.0625) / 3);
+  EXPECT_FALSE(figures.non_occluded.has_value());
+  ASSERT_TRUE(figures.near_discontinuity.has_value());
+  EXPECT_EQ(figures.near_discontinuity->known, 2u);  // the mask of evaluated pixels applies, too
+  EXPECT_EQ(figures.near_discontinuity->defined, 1u);
+  EXPECT_EQ(figures.near_discontinuity->correct, 0u);
+  EXPECT_DOUBLE_EQ(figures.near_discontinuity->bad_one_undefined_share(), 100);
+}
+
+/// What must hold of any map and truth.
+TEST(measure, obeys_its_own_arithmetic_on_random_maps) {
+  std::mt19937 random(17);
+  for (int trial = 0; trial < 200; ++trial) {
+    const int width = 1 + static_cast<int>(random() % 9);
+    const int height = 1 + static_cast<int>(random() % 9);
+    disparity_map map(width, height);
+    ground_truth truth{{width, height, {}}, std::nullopt, std::nullopt};
+    pixel_mask part{width, height, {}};
+    for (std::size_t i = 0; i < map.defined.size(); ++i) {
+      map.defined[i] = random() % 4 != 0 ? 1 : 0;
+      map.disparity[i] = map.defined[i] != 0 ? static_cast<std::uint8_t>(random() % 8) : 0;
+      truth.disparity.values.push_back(random() % 5 == 0 ? unknown : static_cast<double>(random() % 32) / 4);
+      part.selected.push_back(random() % 2 == 0);
+    }
+    const auto whole = measure(map, &truth);
+    const auto& all = *whole.all;
+    EXPECT_LE(all.bad_two, all.bad_one);
+    EXPECT_LE(all.bad_one, all.bad_half);
+    EXPECT_EQ(all.correct + all.bad_one, all.defined);
+    EXPECT_LE(all.defined, all.known);
+    EXPECT_LE(all.defined, whole.defined);
+    if (all.defined != 0) {
+      EXPECT_NEAR(all.accuracy() + all.bad_one_share(), 100, 1e-9);
+    }
+    if (all.known != 0) {
+      EXPECT_NEAR(all.bad_one_undefined_share(), 100 - all.accuracy() * all.coverage() / 100, 1e-9);
+    }
+
+    // A region and what is outside it make up the whole.
+    pixel_mask rest = part;
+    rest.selected.flip();
+    truth.non_occluded = part;
+    truth.near_discontinuity = rest;
+    const auto parts = measure(map, &truth);
+    EXPECT_EQ(parts.non_occluded->known + parts.near_discontinuity->known, all.known);
+    EXPECT_EQ(parts.non_occluded->correct + parts.near_discontinuity->correct, all.correct);
+    EXPECT_DOUBLE_EQ(parts.non_occluded->error_sum + parts.near_discontinuity->error_sum, all.error_sum);
+    // As if only that region were evaluated.
+    truth.evaluated = part;
+    truth.non_occluded.reset();
+    truth.near_discontinuity.reset();
+    EXPECT_EQ(measure(map, &truth).all->bad_half, parts.non_occluded->bad_half);
+
+    // Disparities count relative to the truth only.
+    truth.evaluated.reset();
+    real_map shifted = real_values_of(map);
+    for (double& value : shifted.values) value += 2.25;
+    for (double& value : truth.disparity.values) value += 2.25;
+    EXPECT_EQ(measure(shifted, &truth).all->correct, all.correct);
+    EXPECT_EQ(measure(shifted, &truth).all->bad_half, all.bad_half);
+    EXPECT_EQ(measure(shifted, &truth).defined, whole.defined);
+  }
+}
+
 TEST(measure, gives_0_where_there_is_nothing_to_take_a_share_of) {
   const ground_truth truth{{2, 1, {unknown, unknown}}, std::nullopt, std::nullopt};
   const auto figures = measure(map_of({-1, 4}, 2, 1), &truth);
@@ -79,7 +155,8 @@ TEST(measure, refuses_truth_and_masks_of_another_size) {
   const ground_truth wrong_truth{{1, 2, {1, 1}}, std::nullopt, std::nullopt};
   const ground_truth wrong_mask{fitting, turned, std::nullopt};
   const ground_truth wrong_non_occluded{fitting, std::nullopt, turned};
-  for (const auto* truth : {&wrong_truth, &wrong_mask, &wrong_non_occluded}) {
+  const ground_truth wrong_discontinuity{fitting, std::nullopt, std::nullopt, turned};
+  for (const auto* truth : {&wrong_truth, &wrong_mask, &wrong_non_occluded, &wrong_discontinuity}) {
     EXPECT_THROW((void)measure(map, truth), std::invalid_argument);
   }
 }
