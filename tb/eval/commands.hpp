@@ -17,4 +17,7 @@ void add_compare_command(CLI::App& application, const engine_registry& registry,
 /// becomes 1 when a pair or a map could not be evaluated.
 void add_evaluate_command(CLI::App& application, const engine_registry& registry, int& exit_code);
 
+/// `epiline scene`: renders a synthetic stereo pair with its truth.
+void add_scene_command(CLI::App& application);
+
 }  // namespace epiline::eval

@@ -260,17 +260,47 @@ real_map parse_pfm(std::string_view bytes, const std::string& name) {
   return map;
 }
 
-std::string pfm_of(const disparity_map& map) {
+std::string pfm_of(const real_map& map) {
   std::string bytes = fmt::format("Pf\n{} {}\n-1.0\n", map.width, map.height);
-  bytes.reserve(bytes.size() + 4 * map.disparity.size());
+  bytes.reserve(bytes.size() + 4 * map.values.size());
   for (int y = map.height - 1; y >= 0; --y) {
     for (int x = 0; x < map.width; ++x) {
-      const std::size_t i = map.index(x, y);
+      const double value = map.values[static_cast<std::size_t>(y) * map.width + x];
       append_float<std::endian::little>(
-          bytes, map.defined[i] != 0 ? map.disparity[i] : std::numeric_limits<float>::infinity());
+          bytes, std::isnan(value) ? std::numeric_limits<float>::infinity() : static_cast<float>(value));
     }
   }
   return bytes;
+}
+
+std::string pfm_of(const disparity_map& map) {
+  real_map values{map.width, map.height, {}};
+  values.values.reserve(map.disparity.size());
+  for (std::size_t i = 0; i < map.disparity.size(); ++i) {
+    values.values.push_back(map.defined[i] != 0 ? map.disparity[i] : std::numeric_limits<double>::quiet_NaN());
+  }
+  return pfm_of(values);
+}
+
+std::string png_of(const rgb_image& image) {
+  cv::Mat picture(image.height, image.width, CV_8UC3);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const std::uint8_t* rgb = image.at(x, y);
+      picture.at<cv::Vec3b>(y, x) = {rgb[2], rgb[1], rgb[0]};
+    }
+  }
+  return encode_png(picture);
+}
+
+std::string png_of(const pixel_mask& mask) {
+  cv::Mat picture(mask.height, mask.width, CV_8UC1);
+  for (int y = 0; y < mask.height; ++y) {
+    for (int x = 0; x < mask.width; ++x) {
+      picture.at<std::uint8_t>(y, x) = mask.selected[static_cast<std::size_t>(y) * mask.width + x] ? 255 : 128;
+    }
+  }
+  return encode_png(picture);
 }
 
 std::string png_of(const disparity_map& map) {

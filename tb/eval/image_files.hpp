@@ -51,6 +51,15 @@ struct pixel_mask {
 /// Little-endian PFM of a map whose undefined pixels become +infinity.
 [[nodiscard]] std::string pfm_of(const disparity_map& map);
 
+/// Little-endian PFM of a map whose unknown pixels become +infinity.
+[[nodiscard]] std::string pfm_of(const real_map& map);
+
+/// 8-bit colour PNG.
+[[nodiscard]] std::string png_of(const rgb_image& image);
+
+/// 8-bit PNG as read_mask() reads it: 255 = selected, 128 = not.
+[[nodiscard]] std::string png_of(const pixel_mask& mask);
+
 /// 16-bit PNG: disparity * 256, 0 = undefined; a defined 0 is stored as 1.
 [[nodiscard]] std::string png_of(const disparity_map& map);
 

@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
     epiline::eval::add_match_command(application, registry);
     epiline::eval::add_compare_command(application, registry, exit_code);
     epiline::eval::add_evaluate_command(application, registry, exit_code);
+    epiline::eval::add_scene_command(application);
     try {
       if (argc > 1 && argv[1][0] != '-') require_known_subcommand(application, argv[1]);
       application.parse(argc, argv);

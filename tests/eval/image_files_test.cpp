@@ -166,6 +166,22 @@ disparity_map small_map() {
   return map;
 }
 
+TEST(png_of, keeps_colours_and_masks) {
+  const scratch_folder folder;
+  rgb_image image(2, 1);
+  image.pixels = {1, 2, 3, 253, 254, 255};
+  write_file(folder / "image.png", png_of(image));
+  EXPECT_EQ(read_stereo_image(folder / "image.png").pixels, image.pixels);
+  const pixel_mask mask{3, 1, {true, false, true}};
+  write_file(folder / "mask.png", png_of(mask));
+  EXPECT_EQ(read_mask(folder / "mask.png").selected, mask.selected);
+}
+
+TEST(pfm_of, writes_real_values_with_infinity_for_unknown) {
+  const real_map map{2, 2, {0.5, std::nan(""), -3, 1e6}};
+  EXPECT_THAT(parse_pfm(pfm_of(map), "").values, ElementsAre(0.5, std::numeric_limits<double>::infinity(), -3, 1e6));
+}
+
 TEST(pfm_of, writes_plain_values_with_infinity_for_undefined) {
   const std::string bytes = pfm_of(small_map());
   EXPECT_TRUE(bytes.starts_with("Pf\n3 2\n-1.0\n"));
