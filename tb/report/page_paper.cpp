@@ -26,7 +26,13 @@ std::string accuracy_and_coverage(double accuracy, double coverage) {
 
 std::string accuracy_table(const evaluation& found) {
   std::string head = "<tr><th>Row of the paper</th><th class=\"text\">whose figures</th>";
-  for (const auto& scene : printed_scenes()) head += fmt::format("<th>{}</th>", scene.title);
+  for (const auto& scene : printed_scenes()) {
+    const auto pair = std::ranges::find_if(
+        found.pairs, [&](const pair_result& each) { return each.synthetic && each.entry.scene == scene.scene; });
+    head += fmt::format(
+        "<th>{}{}</th>", scene.title,
+        pair == found.pairs.end() ? "" : fmt::format("<br><a href=\"#{}\">ours: synthetic</a>", anchor_of(*pair)));
+  }
   head += "</tr>\n";
   std::string body;
   for (const auto& row : printed_rows()) {

@@ -24,7 +24,7 @@ enum mode { sgbm = 0, hh = 1, three_way = 2, hh4 = 3 };
 /// Results come from the matcher and from the measure. Where OpenCV 4.6, which Debian 12 has, still computes what the
 /// version computed that made the stored result, all digits must agree. Elsewhere OpenCV's own test allows 2.2 (block
 /// matching) and 1 (semi-global) percentage points; we measured what the differences are and allow no more:
-/// - StereoBM and StereoSGBM's first two modes were changed after their results were stored (2.4, 2013).
+/// - StereoBM and StereoSGBM's first two modes evidently changed since their results were stored (2013).
 /// - Teddy and Cones differ in every mode, also in the one that agrees to all digits on Tsukuba and Venus, so probably
 ///   the pictures: OpenCV's copies of these two were not at hand.
 constexpr double all_digits = 0.00005;

@@ -144,6 +144,14 @@ TEST(page, reports_missing_pairs_and_failed_maps_at_the_top_and_in_their_place) 
                                  HasSubstr("Not evaluated: no folder 'gone'"), HasSubstr("id=\"pair-gone\"")));
 }
 
+TEST(page, calls_a_synthetic_pair_synthetic_wherever_it_stands) {
+  auto found = small_evaluation();
+  EXPECT_THAT(page(found), Not(HasSubstr("synthetic</a>")));
+  found.pairs.push_back(tiny_pair("corridor", found.methods.size()));
+  found.pairs.back().synthetic = true;
+  EXPECT_THAT(page(found), AllOf(HasSubstr(">Corridor (synthetic)</h2>"), HasSubstr("ours: synthetic</a></th>")));
+}
+
 TEST(page, says_where_there_is_no_mask) {
   EXPECT_THAT(page(small_evaluation()), HasSubstr("no mask, and no truth of the right image to derive one from"));
 }
