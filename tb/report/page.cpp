@@ -92,12 +92,12 @@ std::string summary_table(const evaluation& found, const summary_measure& measur
   return table(measure.caption, head + "</tr>\n", body);
 }
 
-/// "A on 4 of 6 pairs (x, y), B on 2 (z)".
+/// "A on 4 of 6 (x, y); B on 2 of 6 (z)". Nobody wins on a scene of the project's own making.
 std::string winners_text(const evaluation& found, const summary_measure& measure) {
   std::map<std::size_t, std::vector<std::string>> won;
   std::size_t measured = 0;
   for (const auto& pair : found.pairs) {
-    if (const auto best = winner(found, pair, measure)) {
+    if (const auto best = winner(found, pair, measure); best && !pair.synthetic) {
       won[*best].push_back(escaped(title_of(pair)));
       ++measured;
     }
@@ -111,7 +111,7 @@ std::string winners_text(const evaluation& found, const summary_measure& measure
     parts.push_back(fmt::format("<b>{}</b> on {} of {} ({})", escaped(found.methods[index].title), pairs.size(),
                                 measured, fmt::join(pairs, ", ")));
   }
-  return parts.empty() ? "nothing was measured" : fmt::format("{}", fmt::join(parts, "; "));
+  return parts.empty() ? "nothing was measured on photographs" : fmt::format("{}", fmt::join(parts, "; "));
 }
 
 std::string failures(const evaluation& found) {
@@ -143,17 +143,20 @@ std::string navigation(const evaluation& found) {
 }
 
 std::string summary(const evaluation& found) {
-  const auto evaluated = std::ranges::count_if(found.pairs, [](const auto& pair) { return pair.pair.has_value(); });
+  const auto count = [&](bool synthetic) {
+    return std::ranges::count_if(
+        found.pairs, [&](const auto& pair) { return pair.pair.has_value() && pair.synthetic == synthetic; });
+  };
+  const auto photographed = count(false);
   std::string html = fmt::format(
       "<p>Two cameras side by side see every point at two places; how far apart, in pixels, is its <i>disparity</i>, "
-      "and "
-      "the larger it is the nearer is the point. A stereo method computes it for each pixel of the left image. This "
-      "page "
-      "shows how well the methods of this project do that, as the hardware does it bit for bit (engine "
-      "<code>{}</code>), on {} pair{} of pictures whose true disparities are known, beside OpenCV's two matchers on "
-      "the "
-      "same pictures, with the same levels and under the same measures.</p>\n",
-      escaped(found.engine), evaluated, evaluated == 1 ? "" : "s");
+      "and the larger it is the nearer is the point. A stereo method computes it for each pixel of the left image. "
+      "This "
+      "page shows how well the methods of this project do that, as the hardware does it bit for bit (engine "
+      "<code>{}</code>), on {} pair{} of photographs whose true disparities are known{}, beside OpenCV's two matchers "
+      "on the same pictures, with the same levels and under the same measures.</p>\n",
+      escaped(found.engine), photographed, photographed == 1 ? "" : "s",
+      count(true) == 0 ? "" : " (and a rendered one, which takes no part in who wins)");
   html += fmt::format("<ul>\n<li>Highest accuracy: {}.</li>\n<li>Fewest pixels wrong or missing: {}.</li>\n</ul>\n",
                       winners_text(found, measures[0]), winners_text(found, measures[1]));
   for (const auto& measure : measures) html += summary_table(found, measure);

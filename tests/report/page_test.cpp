@@ -150,6 +150,7 @@ TEST(page, calls_a_synthetic_pair_synthetic_wherever_it_stands) {
   found.pairs.push_back(tiny_pair("corridor", found.methods.size()));
   found.pairs.back().synthetic = true;
   EXPECT_THAT(page(found), AllOf(HasSubstr(">Corridor (synthetic)</h2>"), HasSubstr("ours: synthetic</a></th>")));
+  EXPECT_THAT(page(found), AllOf(HasSubstr("on 1 of 1 (Tsukuba)"), Not(HasSubstr("Corridor (synthetic))"))));
 }
 
 TEST(page, says_where_there_is_no_mask) {
