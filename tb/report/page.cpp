@@ -34,15 +34,14 @@ std::optional<double> wrong_or_missing(const eval::map_figures& figures) {
 
 constexpr summary_measure measures[] = {
     {"<b>Accuracy / coverage</b>, %: of the pixels given a disparity, how many are right within 1 pixel / how many "
-     "pixels "
-     "are given one. Highest accuracy marked; a method can buy accuracy with coverage.",
+     "pixels are given one. Highest accuracy marked; a method can buy accuracy with coverage.",
      true, accuracy,
      [](const eval::map_figures& figures) {
        return fmt::format("{:.1f} / {:.1f}", figures.all->accuracy(), figures.coverage());
      }},
     {"<b>Wrong or missing</b>, %: of the pixels that both cameras see, how many have no disparity or one off by more "
-     "than "
-     "1 pixel. This counts both faults at once; lowest marked. (All pixels of known truth where there is no mask.)",
+     "than 1 pixel. This counts both faults at once; lowest marked. (All pixels of known truth where there is no "
+     "mask.)",
      false, wrong_or_missing,
      [](const eval::map_figures& figures) { return fmt::format("{:.1f}", *wrong_or_missing(figures)); }},
 };
@@ -151,8 +150,7 @@ std::string summary(const evaluation& found) {
   std::string html = fmt::format(
       "<p>Two cameras side by side see every point at two places; how far apart, in pixels, is its <i>disparity</i>, "
       "and the larger it is the nearer is the point. A stereo method computes it for each pixel of the left image. "
-      "This "
-      "page shows how well the methods of this project do that, as the hardware does it bit for bit (engine "
+      "This page shows how well the methods of this project do that, as the hardware does it bit for bit (engine "
       "<code>{}</code>), on {} pair{} of photographs whose true disparities are known{}, beside OpenCV's two matchers "
       "on the same pictures, with the same levels and under the same measures.</p>\n",
       escaped(found.engine), photographed, photographed == 1 ? "" : "s",
@@ -170,25 +168,21 @@ std::string words() {
       "<dt>Coverage</dt><dd>Pixels given a disparity / all pixels of the image. Within a region (non-occluded, near "
       "discontinuities): of that region's pixels whose truth is known.</dd>\n"
       "<dt>Accuracy</dt><dd>Of the pixels given a disparity whose truth is known and counts, the share with |d - "
-      "truth| "
-      "&le; 1 pixel.</dd>\n"
+      "truth| &le; 1 pixel.</dd>\n"
       "<dt>Bad 0.5, bad 1, bad 2</dt><dd>Of the same pixels, the share with |d - truth| above that many pixels. "
-      "OpenCV's "
-      "maps have fractions of a pixel, the hardware's have not, which bad 0.5 and the average error show.</dd>\n"
+      "OpenCV's maps have fractions of a pixel, the hardware's have not, which bad 0.5 and the average error "
+      "show.</dd>\n"
       "<dt>Average error</dt><dd>Of the same pixels, the mean of |d - truth|, in pixels.</dd>\n"
       "<dt>Bad 1 or undefined</dt><dd>Of all pixels whose truth is known and counts, the share that is bad by more "
-      "than 1 "
-      "or given no disparity: gaps are not forgiven.</dd>\n"
+      "than 1 or given no disparity: gaps are not forgiven.</dd>\n"
       "<dt>Truth that counts</dt><dd>Where the data set has a mask of evaluated pixels (mask_all), only those; unknown "
       "truth never counts.</dd>\n"
       "<dt>Non-occluded</dt><dd>Seen by both cameras: the data set's mask; else, where the truth of the right image is "
       "there, pixels whose match lies in the right image at a known truth that is not nearer by more than {:.0f} "
-      "pixel; "
-      "else there is no such figure, and the page says \"no mask\".</dd>\n"
+      "pixel; else there is no such figure, and the page says \"no mask\".</dd>\n"
       "<dt>Near discontinuities</dt><dd>The data set's mask; else pixels in a square of {} x {} around one whose truth "
       "differs from that of one of its eight neighbours by more than {:.0f} pixels. Non-occluded pixels only, where "
-      "that "
-      "is known.</dd>\n</dl>\n",
+      "that is known.</dd>\n</dl>\n",
       eval::occlusion_threshold, eval::discontinuity_width, eval::discontinuity_width, eval::discontinuity_gap);
 }
 
@@ -208,8 +202,8 @@ std::string methods_section(const report_contents& contents) {
              "wrap\">parameters</th></tr>\n",
              body) +
          fmt::format(
-             "<p class=\"soft\">Epiline {}. Made by <code>{}</code>. The same figures, and more digits, are in "
-             "<a href=\"figures.json\">figures.json</a> and <a href=\"figures.csv\">figures.csv</a>.</p>\n",
+             "<p class=\"soft\">Epiline {}. Made by <code>{}</code>. The same figures, and more digits, are in <a "
+             "href=\"figures.json\">figures.json</a> and <a href=\"figures.csv\">figures.csv</a>.</p>\n",
              escaped(contents.version), escaped(contents.command));
 }
 

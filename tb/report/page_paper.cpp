@@ -124,8 +124,8 @@ std::string frame_rate_table(const report_contents& contents) {
                         cell(escaped(timing->cycles_source), "text wrap"));
   }
   return table(
-      "Frames a second against image size. A dash: a size that this build's line memories do not hold, or that "
-      "was not run.",
+      "Frames a second against image size. A dash: a size that this build's line memories do not hold, or that was not "
+      "run.",
       head, body);
 }
 
@@ -172,8 +172,8 @@ std::string time_table(const report_contents& contents) {
     }
   }
   return table(
-      "Milliseconds a pair. Ours: clocks a frame over the clock of the table above; the hardware always searches "
-      "its 80 levels at once, so fewer levels take no less time.",
+      "Milliseconds a pair. Ours: clocks a frame over the clock of the table above; the hardware always searches its "
+      "80 levels at once, so fewer levels take no less time.",
       "<tr><th>Method</th><th class=\"text\">pair</th><th>paper prints</th><th>ours</th></tr>\n", body);
 }
 
@@ -186,8 +186,8 @@ std::string membership_table() {
                         cell(fmt::format("{:.3f}", std::floor(error * 1000) / 1000)));
   }
   return table(
-      "Largest error of membership degrees digitised with N bits: truncation, floor(&mu; &middot; 2<sup>N</sup>) "
-      "/ 2<sup>N</sup>, of a Gaussian with &sigma; = 18.75 at 0, 1, ..., 127",
+      "Largest error of membership degrees digitised with N bits: truncation, floor(&mu; &middot; 2<sup>N</sup>) / "
+      "2<sup>N</sup>, of a Gaussian with &sigma; = 18.75 at 0, 1, ..., 127",
       "<tr><th>Bits</th><th>paper prints</th><th>computed</th><th>to three decimals, cut</th></tr>\n", body);
 }
 
@@ -196,9 +196,7 @@ std::string membership_table() {
 std::string paper_section(const report_contents& contents) {
   return "<h2 id=\"paper\">The paper's tables</h2>\n"
          "<p>C. Georgoulas, I. Andreadis: <i>Real-Time Stereo Vision Techniques</i>. What it prints is in grey "
-         "italics; below "
-         "it "
-         "stands what this project measures or computes.</p>\n"
+         "italics; below it stands what this project measures or computes.</p>\n"
          "<h3 id=\"paper-accuracy\">Accuracy and coverage of the methods</h3>\n" +
          accuracy_table(contents.found) + accuracy_note(contents.found) +
          "<h3 id=\"paper-rates\">Frame rate and image size</h3>\n" + frame_rate_table(contents) +

@@ -223,12 +223,19 @@ TEST_F(epiline_command, has_help_and_version) {
 }
 
 TEST_F(epiline_command, renders_a_scene_that_match_can_measure) {
-  const auto result = run("scene steps -o made/steps --width 96 --height 40 --levels 24 --seed 7 --noise 1.5 --gain 1.1 "
-                          "--offset -3 --misalignment 0.5");
+  const auto result =
+      run("scene steps -o made/steps --width 96 --height 40 --levels 24 --seed 7 --noise 1.5 --gain 1.1 "
+          "--offset -3 --misalignment 0.5");
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_THAT(result.output, AllOf(HasSubstr("steps 96x40, 24 levels"), HasSubstr("made/steps")));
-  const auto pair = scenes::render("steps", {.width = 96, .height = 40, .levels = 24, .seed = 7, .noise = 1.5,
-                                             .gain = 1.1, .offset = -3, .misalignment = 0.5});
+  const auto pair = scenes::render("steps", {.width = 96,
+                                             .height = 40,
+                                             .levels = 24,
+                                             .seed = 7,
+                                             .noise = 1.5,
+                                             .gain = 1.1,
+                                             .offset = -3,
+                                             .misalignment = 0.5});
   for (const auto& [side, view] : {std::pair{"left", &pair.left}, {"right", &pair.right}}) {
     const std::string name = side;
     EXPECT_EQ(read_stereo_image(folder_ / ("made/steps/" + name + ".png")).pixels, view->image.pixels);
@@ -237,8 +244,9 @@ TEST_F(epiline_command, renders_a_scene_that_match_can_measure) {
   }
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "made/steps"), {}), 6);
 
-  const auto measured = run("match made/steps/left.png made/steps/right.png --levels 24 --truth made/steps/disp_left.pfm "
-                            "--mask-nonocc made/steps/mask_nonocc_left.png --json figures.json");
+  const auto measured =
+      run("match made/steps/left.png made/steps/right.png --levels 24 --truth made/steps/disp_left.pfm "
+          "--mask-nonocc made/steps/mask_nonocc_left.png --json figures.json");
   EXPECT_EQ(measured.exit_code, 0) << measured.errors;
   EXPECT_GT(nlohmann::json::parse(test::read_file(folder_ / "figures.json"))["accuracy"], 50);
   // Again into the same folder: replaced.
