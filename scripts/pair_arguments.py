@@ -31,6 +31,8 @@ def arguments_of(folder, scene):
         not_occluded = find(place, names, "mask_nonocc") or find(place, names, "mask_nonocc_left")
         arguments += ["--mask", mask] if mask else []
         arguments += ["--mask-nonocc", not_occluded] if not_occluded else []
+        discontinuities = find(place, names, "mask_disc")
+        arguments += ["--mask-disc", discontinuities] if discontinuities else []
     return arguments
 
 

@@ -62,7 +62,7 @@ std::optional<pixel_mask> read_mask_of(const std::string& path, const rgb_image&
 std::optional<ground_truth> read_ground_truth(const job_options& options, const rgb_image& image) {
   if (options.truth.empty()) return std::nullopt;
   ground_truth truth{read_truth(options.truth, options.truth_scale), read_mask_of(options.mask, image),
-                     read_mask_of(options.non_occluded_mask, image)};
+                     read_mask_of(options.non_occluded_mask, image), read_mask_of(options.discontinuity_mask, image)};
   require_size(options.truth, truth.disparity.width, truth.disparity.height, image);
   return truth;
 }
@@ -93,6 +93,10 @@ void job_options::add_to(CLI::App& command) {
       ->option_text("N");
   command.add_option("--mask", mask, "only pixels that are 255 here count for accuracy")->option_text("FILE");
   command.add_option("--mask-nonocc", non_occluded_mask, "255 = not occluded: adds accuracy over those pixels")
+      ->option_text("FILE");
+  command
+      .add_option("--mask-disc", discontinuity_mask,
+                  "255 = near a depth discontinuity: adds accuracy over those pixels")
       ->option_text("FILE");
   command.add_option("--seed", run.seed, "seed of random input gaps and output stalls (default 1)")->option_text("N");
   command
@@ -135,8 +139,10 @@ frame_job prepare(const job_options& options) {
   if (options.left.empty() || options.right.empty()) {
     throw usage_error("name two images: LEFT and RIGHT (see --help)");
   }
-  if (options.truth.empty() && (!options.mask.empty() || !options.non_occluded_mask.empty() || options.truth_scale)) {
-    throw usage_error("--mask, --mask-nonocc and --truth-scale say how to use --truth, which is missing");
+  const bool has_mask =
+      !options.mask.empty() || !options.non_occluded_mask.empty() || !options.discontinuity_mask.empty();
+  if (options.truth.empty() && (has_mask || options.truth_scale)) {
+    throw usage_error("--mask, --mask-nonocc, --mask-disc and --truth-scale say how to use --truth, which is missing");
   }
   check_outputs(options);
   job.request.left = read_stereo_image(options.left);
@@ -194,6 +200,7 @@ std::string figures_text(const map_figures& figures) {
   };
   if (figures.all) add("known truth", *figures.all);
   if (figures.non_occluded) add("non-occluded", *figures.non_occluded);
+  if (figures.near_discontinuity) add("near discontinuities", *figures.near_discontinuity);
   return text;
 }
 

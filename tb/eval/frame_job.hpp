@@ -34,6 +34,7 @@ struct job_options {
   std::optional<double> truth_scale;
   std::string mask;
   std::string non_occluded_mask;
+  std::string discontinuity_mask;
   run_options run;
   bool list = false;
 

@@ -176,10 +176,10 @@ TEST_F(epiline_command, match_adds_accuracy_when_truth_is_given) {
   cv::Mat mask(20, 60, CV_8UC1, cv::Scalar(255));
   mask.colRange(30, 60).setTo(128);
   cv::imwrite(folder_ / "mask.png", mask);
-  ASSERT_EQ(
-      run("match left.png right.png --levels 10 --truth truth.png --truth-scale 4 --mask-nonocc mask.png --json f.json")
-          .exit_code,
-      0);
+  ASSERT_EQ(run("match left.png right.png --levels 10 --truth truth.png --truth-scale 4 --mask-nonocc mask.png "
+                "--mask-disc mask.png --json f.json")
+                .exit_code,
+            0);
   const auto figures = nlohmann::json::parse(test::read_file(folder_ / "f.json"));
   EXPECT_EQ(figures["known"], known);
   EXPECT_EQ(figures["known_and_defined"], known);
@@ -189,6 +189,8 @@ TEST_F(epiline_command, match_adds_accuracy_when_truth_is_given) {
   EXPECT_NEAR(figures["average_error"].get<double>(), 1.0 * off_by_one / known, 1e-9);
   EXPECT_EQ(figures["nonocc_known"], known_left_half);
   EXPECT_EQ(figures["nonocc_accuracy"], 100.0);
+  EXPECT_EQ(figures["disc_known"], known_left_half);
+  EXPECT_EQ(figures["disc_accuracy"], 100.0);
   ASSERT_EQ(run("match left.png right.png --levels 10 --truth truth.png --truth-scale 4 --mask mask.png --json g.json")
                 .exit_code,
             0);
@@ -359,6 +361,8 @@ TEST_F(epiline_command, refuses_truth_that_does_not_fit) {
   expect_error("match left.png right.png -o m.pfm --truth small.png", "small.png is 60x19", "60x20");
   expect_error("match left.png right.png -o m.pfm --truth truth.png --mask small.png", "small.png is 60x19");
   expect_error("match left.png right.png -o m.pfm --truth truth.png --mask-nonocc small.png", "small.png is 60x19");
+  expect_error("match left.png right.png -o m.pfm --truth truth.png --mask-disc small.png", "small.png is 60x19");
+  expect_error("match left.png right.png -o m.pfm --mask-disc small.png", "--truth", "missing");
   expect_error("match left.png right.png -o m.pfm --truth none.pfm", "none.pfm", "No such file");
   expect_error("match left.png right.png -o m.pfm --truth truth.png --truth-scale 0", "not above 0");
   expect_error("match left.png right.png -o m.pfm --mask small.png", "--truth", "missing");
