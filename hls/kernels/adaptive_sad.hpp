@@ -36,8 +36,10 @@ class adaptive_sad {
   };
 
  public:
-  using cost_t = typename row_sum<Config, luma_window<3>>::cost_t;
+  static constexpr int cost_bits = row_sum<Config, luma_window<3>>::cost_t::width;
+  using cost_t = ap_uint<cost_bits + 1>;  // the bit on top is 0
   using costs = level_array<cost_t, lanes, levels>;
+  static constexpr int penalty = 1 << cost_bits;  // for candidate_mask
 
   struct place {
     typename nested_column_sum<Config>::place column;

@@ -9,12 +9,13 @@
 namespace epiline::kernels {
 
 /// Which candidates take part: level d of the pixel in column x does iff the pixel is one of the frame, d <= x (its
-/// right partner lies in the frame) and d < the number of levels asked for. All others get the largest cost, which no
-/// true SAD reaches; so this is the one place where candidates are masked, and every kernel behind it just compares
-/// costs.
+/// right partner lies in the frame) and d < the number of levels asked for. All others get a cost that no
+/// true one reaches, by setting the bits `Penalty` of it; so this is the one place where candidates are masked, and
+/// every kernel behind it just compares costs. (All bits make one largest cost of all; a spare bit on top does the same
+/// for the winner with a gate a level.)
 ///
 /// d = 0 always takes part in a pixel of the frame.
-template <class Config, class Costs>
+template <class Config, class Costs, int Penalty>
 class candidate_mask {
  public:
   static constexpr int lanes = Config::pixels_per_beat;
@@ -34,7 +35,7 @@ class candidate_mask {
       const level_t last = last_column_level < last_level_used ? last_column_level : last_level_used;
       for (int d = 0; d < levels; ++d) {
         const bool takes_part = pixel_in[lane] && level_t(window::indices<levels>.of[d]) <= last;
-        result.at[lane][d] = takes_part ? costs.at[lane][d] : cost_t(~cost_t(0));
+        result.at[lane][d] = takes_part ? costs.at[lane][d] : cost_t(costs.at[lane][d] | cost_t(Penalty));
       }
     }
     return result;

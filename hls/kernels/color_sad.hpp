@@ -37,6 +37,7 @@ class color_sad {
   using beat_t = ap_uint<lanes * color_bits>;
   using cost_t = typename rows::cost_t;
   using costs = typename rows::costs;
+  static constexpr int penalty = (1 << cost_t::width) - 1;  // for candidate_mask: there is no spare bit
 
   struct place {
     typename columns::place column;

@@ -121,7 +121,8 @@ void adaptive_ca_frame(hls::stream<typename adaptive_ca_interface<Config>::video
     lanes_inside(centre_x, width, centre_started && !raster.in_flush(), column_in);
     bool pixel_in[lanes];
     for (int lane = 0; lane < lanes; ++lane) pixel_in[lane] = centre_in_rows && column_in[lane];
-    const auto costs = candidate_mask<Config, typename sad::costs>::step(all_costs, centre_x, pixel_in, levels);
+    const auto costs =
+        candidate_mask<Config, typename sad::costs, sad::penalty>::step(all_costs, centre_x, pixel_in, levels);
 
     disparity_pixel winner[lanes];
     typename sad::cost_t lowest[lanes];

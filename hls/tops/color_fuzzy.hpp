@@ -105,7 +105,8 @@ void color_fuzzy_frame(hls::stream<typename color_fuzzy_interface<Config>::video
     const ap_uint<window::bits_for(frame_raster::longest_row * lanes)> centre_x = centre_beat * lanes;
     bool pixel_in[lanes];
     lanes_inside(centre_x, width, centre_in_rows && centre_started, pixel_in);
-    const auto costs = candidate_mask<Config, typename sad::costs>::step(all_costs, centre_x, pixel_in, levels);
+    const auto costs =
+        candidate_mask<Config, typename sad::costs, sad::penalty>::step(all_costs, centre_x, pixel_in, levels);
 
     disparity_beat_of<lanes> found;
     typename sad::cost_t lowest[lanes];

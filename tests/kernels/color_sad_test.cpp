@@ -120,7 +120,9 @@ TYPED_TEST(color_sad_of, equals_brute_force_for_every_candidate) {
   }
 }
 
-TEST(candidate_mask, keeps_exactly_the_allowed_candidates) {
+/// `masked`: what a cost of 5 becomes that does not take part.
+template <int Penalty>
+void expect_masked(int masked) {
   using two_lanes = config<2, 3>;
   using costs_t = color_sad<two_lanes>::costs;
   costs_t costs;
@@ -129,17 +131,22 @@ TEST(candidate_mask, keeps_exactly_the_allowed_candidates) {
     for (int x = 0; x < 40; x += 2) {
       for (int in_frame = 0; in_frame < 4; ++in_frame) {
         const bool pixel_in[2] = {(in_frame & 1) != 0, (in_frame & 2) != 0};
-        const costs_t masked =
-            candidate_mask<two_lanes, costs_t>::step(costs, ap_uint<11>(x), pixel_in, ap_uint<4>(levels));
+        const costs_t result =
+            candidate_mask<two_lanes, costs_t, Penalty>::step(costs, ap_uint<11>(x), pixel_in, ap_uint<4>(levels));
         for (int lane = 0; lane < 2; ++lane) {
           for (int d = 0; d < two_lanes::levels; ++d) {
             const bool allowed = pixel_in[lane] && d <= x + lane && d < levels;
-            EXPECT_EQ(masked.at[lane][d], allowed ? 5 : 65535) << levels << ' ' << x << ' ' << lane << ' ' << d;
+            EXPECT_EQ(result.at[lane][d], allowed ? 5 : masked) << levels << ' ' << x << ' ' << lane << ' ' << d;
           }
         }
       }
     }
   }
+}
+
+TEST(candidate_mask, keeps_exactly_the_allowed_candidates) {
+  expect_masked<65535>(65535);
+  expect_masked<32768>(32768 + 5);
 }
 
 }  // namespace
