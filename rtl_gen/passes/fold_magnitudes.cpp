@@ -18,11 +18,16 @@ struct magnitude {
 
 class folder {
  public:
-  explicit folder(graph& g) : g_(g), known_(g), uses_(g.nodes.size(), 0), new_id_(g.nodes.size(), none) {
-    for (const node& n : g.nodes)
-      for (const node_id operand : n.operands) ++uses_[operand];
-    for (const auto& r : g.registers) ++uses_[r.next], ++uses_[r.enable];
-    if (g.patient != none) ++uses_[g.patient];
+  explicit folder(graph& g) : g_(g), known_(g), only_summed_(g.nodes.size(), true), new_id_(g.nodes.size(), none) {
+    for (const auto& r : g.registers) only_summed_[r.next] = only_summed_[r.enable] = false;
+    if (g.patient != none) only_summed_[g.patient] = false;
+    for (node_id id = static_cast<node_id>(g.nodes.size()); id-- > 0;) {  // users stand behind what they use
+      const node& n = g.nodes[id];
+      const bool sum = n.kind == operation::add || n.kind == operation::subtract;
+      const bool passed_on = n.kind == operation::extend_zero && only_summed_[id];
+      if (sum || passed_on) continue;
+      for (const node_id operand : n.operands) only_summed_[operand] = false;
+    }
   }
 
   void run() {
@@ -48,12 +53,13 @@ class folder {
                   {b.constant(n.width, 0), new_id_[whole.value], new_id_[whole.negated]});
   }
 
-  /// `other` +- `operand` when the operand is a magnitude of no other use, possibly extended.
+  /// `other` +- `operand` when the operand is a magnitude, possibly extended, that is used in sums only: each of them
+  /// can do the same, and nobody needs the magnitude itself.
   node_id fold_operand(builder& b, node_id sum, node_id operand, node_id other) const {
     const unsigned width = g_.nodes[sum].width;
     node_id inner = operand;
-    if (uses_[inner] == 1 && g_.nodes[inner].kind == operation::extend_zero) inner = g_.nodes[inner].operands[0];
-    if (uses_[inner] != 1) return none;
+    if (g_.nodes[inner].kind == operation::extend_zero) inner = g_.nodes[inner].operands[0];
+    if (!only_summed_[inner]) return none;
     const magnitude found = magnitude_of(inner);
     const node_id value = inner == operand ? found.value : found.extensible;
     if (value == none) return none;
@@ -96,7 +102,7 @@ class folder {
 
   graph& g_;
   known_values known_;
-  std::vector<unsigned> uses_;
+  std::vector<bool> only_summed_;  // all uses are additions and subtractions, extensions on the way aside
   std::vector<node_id> new_id_;
 };
 

@@ -70,6 +70,17 @@ TEST(fold_magnitudes, a_magnitude_with_another_use_is_made_once) {
   EXPECT_EQ(count(after, op::add), 1u);
 }
 
+TEST(fold_magnitudes, a_magnitude_in_two_sums_is_part_of_both) {
+  const small_graph s = graph_of([](small_graph& g, node_id a, node_id b, node_id, node_id) {
+    const node_id size = g.make(op::extend_zero, 9, {absolute_difference(g, a, b)});
+    const node_id x = g.make(op::extend_zero, 9, {a}), y = g.make(op::extend_zero, 9, {b});
+    return g.make(op::concat, 18, {g.make(op::add, 9, {x, size}), g.make(op::subtract, 9, {y, size})});
+  });
+  const graph after = run(s.g, fold_magnitudes);
+  EXPECT_EQ(count(after, op::add_or_subtract), 2u);
+  EXPECT_EQ(count(after, op::bit_xor) + count(after, op::add), 0u);
+}
+
 TEST(expand_arithmetic, a_division_takes_one_subtraction_a_bit) {
   const small_graph s = graph_of([](small_graph& g, node_id a, node_id b, node_id, node_id) {
     return g.make(op::concat, 16, {g.make(op::divide_unsigned, 8, {a, b}), g.make(op::remainder_unsigned, 8, {a, b})});
