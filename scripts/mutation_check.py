@@ -4,25 +4,30 @@
     scripts/mutation_check.py [--only TEXT] [--work FOLDER] [--jobs N] [--list]
 
 The faults stand in tests/mutation/mutants.json: a file below hls/, what is wrong then, the text to find (exactly once)
-and its replacement. Works on a copy of the sources in FOLDER (default build-mutation/), never on the sources
-themselves. A fault is killed when a test fails or does not end; one that survives every test is an error, unless the
-table explains under "equivalent" why nothing can notice it. Finished faults are kept in FOLDER/results.json and not
-repeated until the sources change. Exit code 0: all killed or explained.
+and its replacement. Works on copies of hls/ in FOLDER (default build-mutation/), never on the sources themselves. For
+every fault the tests of tests/kernels that include the file are compiled and run, quickest first. A fault is killed when
+a test fails or does not end; one that survives every test is an error, unless the table explains under "equivalent" why
+nothing can notice it. Finished faults are kept in FOLDER/results.json and not repeated until the sources change.
+Exit code 0: all killed or explained.
 """
 
 import argparse
+import concurrent.futures
 import hashlib
 import json
 import os
 import pathlib
+import queue
+import shutil
 import subprocess
 import sys
+import threading
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TABLE = ROOT / "tests" / "mutation" / "mutants.json"
-# Default tests; the first one that fails ends a fault's run.
-TESTS = ["kernels_test"]
+TESTS = sorted(path for path in (ROOT / "tests" / "kernels").glob("*_test.cpp") if path.stem != "real_pairs_test")
+COMPILER = ["clang++-19", "-std=c++20", "-O1", "-w"]
 TEST_SECONDS = 300
 FIELDS = {"file", "fault", "find", "replace", "equivalent"}
 
@@ -54,98 +59,120 @@ def read_table():
     return table
 
 
-def source_files():
-    listed = subprocess.run(["git", "-C", str(ROOT), "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
-                            check=True, capture_output=True).stdout.decode()
-    return sorted(name for name in listed.split("\0") if name and (ROOT / name).is_file())
+def name_of(mutant):
+    return f"{mutant['file']}: {mutant['fault']}"
 
 
-def copy_sources(target):
-    """Copies what changed (times of equal files stay, so nothing is rebuilt); returns a digest of what TESTS depend on."""
+def digest_of_sources():
     digest = hashlib.sha256()
-    for name in source_files():
-        content = (ROOT / name).read_bytes()
-        if name.startswith(("hls/", "tests/kernels/")):
-            digest.update(f"{name}\0{len(content)}\0".encode() + content)
-        copy = target / name
-        if copy.is_file() and copy.read_bytes() == content:
-            continue
-        copy.parent.mkdir(parents=True, exist_ok=True)
-        copy.write_bytes(content)
+    for folder in ("hls", "tests/kernels"):
+        for path in sorted((ROOT / folder).rglob("*")):
+            if path.is_file():
+                digest.update(f"{path.relative_to(ROOT)}\0".encode() + path.read_bytes() + b"\0")
     return digest.hexdigest()
 
 
-class Workshop:
-    def __init__(self, folder, jobs):
-        self.source = folder / "source"
-        self.build = folder / "build"
-        self.jobs = jobs
-        self.log = folder / "log.txt"
+class Bench:
+    """One copy of hls/, with which one fault at a time is tried."""
 
-    def configure(self):
-        self.call(["cmake", "-S", str(self.source), "-B", str(self.build), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                   "-DCMAKE_CXX_COMPILER=clang++-19"], "the configuration of the copy failed")
+    def __init__(self, folder):
+        self.hls = folder / "hls"
+        self.program = folder / "test"
+        shutil.rmtree(self.hls, ignore_errors=True)
+        shutil.copytree(ROOT / "hls", self.hls)
 
-    def call(self, command, problem):
-        with open(self.log, "ab") as log:
-            if subprocess.run(command, stdout=log, stderr=subprocess.STDOUT).returncode != 0:
-                fail(f"{problem}; see {self.log}")
+    def compile(self, test, *more):
+        command = [*COMPILER, *more, f"-I{self.hls}", f"-I{self.hls / 'types'}", str(test)]
+        if "-MM" not in more:
+            command += ["-o", str(self.program), "-lgtest", "-lgtest_main"]
+        return subprocess.run(command, capture_output=True, text=True, errors="replace")
 
-    def compiles(self, target):
-        with open(self.log, "ab") as log:
-            return subprocess.run(["cmake", "--build", str(self.build), "-j", str(self.jobs), "--target", target],
-                                  stdout=log, stderr=subprocess.STDOUT).returncode == 0
+    def headers_of(self, test):
+        listed = self.compile(test, "-MM").stdout.replace("\\\n", " ").split()
+        return {str(pathlib.Path(name).relative_to(self.hls)) for name in listed if name.startswith(f"{self.hls}/")}
 
-    def failing_test(self, target):
-        """The first test of a program that fails, or None."""
+    def failing_test(self, test):
+        """The first test of a source file that fails, or None; what does not compile in angles."""
+        compiled = self.compile(test)
+        if compiled.returncode != 0:
+            return f"<{test.name} does not compile: {(compiled.stderr.splitlines() or ['?'])[0]}>"
         try:
-            run = subprocess.run([str(self.build / "bin" / target), "--gtest_fail_fast", "--gtest_brief=1"],
-                                 capture_output=True, text=True, errors="replace", timeout=TEST_SECONDS)
+            run = subprocess.run([str(self.program), "--gtest_fail_fast", "--gtest_brief=1"], capture_output=True,
+                                 text=True, errors="replace", timeout=TEST_SECONDS)
         except subprocess.TimeoutExpired:
-            return f"{target} (does not end)"
+            return f"{test.name} (does not end)"
         if run.returncode == 0:
             return None
         for line in run.stdout.splitlines():
             if line.startswith("[  FAILED  ]"):
                 return line.split("]", 1)[1].split("(")[0].split(",")[0].strip()
-        return f"{target} (exit code {run.returncode})"
+        return f"{test.name} (exit code {run.returncode})"
 
-    def killer(self):
-        """The test that notices the copy's fault; None if there is none; compilation failures as text in angles."""
-        for target in TESTS:
-            if not self.compiles(target):
-                return f"<{target} does not compile>"
-            failing = self.failing_test(target)
-            if failing is not None:
-                return failing
-        return None
-
-
-def run(mutants, workshop, results, save):
-    for number, mutant in enumerate(mutants):
-        key = f"{mutant['file']}: {mutant['fault']}"
-        if results.get(key, {}).get("change") == [mutant["find"], mutant["replace"]]:
-            continue
-        start = time.time()
-        path = workshop.source / "hls" / mutant["file"]
+    def killer(self, mutant, tests):
+        path = self.hls / mutant["file"]
         original = path.read_text()
         path.write_text(original.replace(mutant["find"], mutant["replace"]))
         try:
-            killer = workshop.killer()
+            for test in tests:
+                failing = self.failing_test(test)
+                if failing is not None:
+                    return failing
         finally:
             path.write_text(original)
-        results[key] = {"change": [mutant["find"], mutant["replace"]], "killed_by": killer,
-                        "seconds": round(time.time() - start, 1)}
-        save()
-        print(f"[{number + 1}/{len(mutants)}] {key}: {'killed by ' + killer if killer else 'SURVIVED'} "
-              f"({results[key]['seconds']} s)", flush=True)
+        return None
+
+
+def measure_tests(benches, jobs):
+    """Every test without a fault: {test: (seconds, headers)}. All must pass."""
+    measured = {}
+
+    def measure(test):
+        bench = benches.get()
+        try:
+            start = time.time()
+            failing = bench.failing_test(test)
+            if failing is not None:
+                fail(f"without any fault: {failing}")
+            measured[test] = (time.time() - start, bench.headers_of(test))
+        finally:
+            benches.put(bench)
+
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        for _ in pool.map(measure, TESTS):
+            pass
+    return measured
+
+
+def run(mutants, benches, jobs, measured, results, save):
+    lock = threading.Lock()
+    left = [m for m in mutants if results.get(name_of(m), {}).get("change") != [m["find"], m["replace"]]]
+
+    def attempt(mutant):
+        tests = sorted((t for t in measured if mutant["file"] in measured[t][1]), key=lambda t: measured[t][0])
+        bench = benches.get()
+        try:
+            start = time.time()
+            killer = bench.killer(mutant, tests)
+            seconds = round(time.time() - start, 1)
+        finally:
+            benches.put(bench)
+        with lock:
+            results[name_of(mutant)] = {"change": [mutant["find"], mutant["replace"]], "killed_by": killer}
+            save()
+            done = sum(name_of(m) in results for m in mutants)
+            print(f"[{done}/{len(mutants)}] {name_of(mutant)}: {'killed by ' + killer if killer else 'SURVIVED'} "
+                  f"({seconds} s)", flush=True)
+
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        for _ in pool.map(attempt, left):
+            pass
 
 
 def report(mutants, results):
     bad = 0
     killed = explained = 0
     for mutant in mutants:
-        key = f"{mutant['file']}: {mutant['fault']}"
+        key = name_of(mutant)
         killer = results[key]["killed_by"]
         if killer is not None and killer.startswith("<"):
             print(f"error: {key}: {killer[1:-1]}; a fault must compile", file=sys.stderr)
@@ -178,10 +205,16 @@ def main():
         for mutant in mutants:
             print(f"{mutant['file']}: {mutant['fault']}")
         return 0
+    if shutil.which(COMPILER[0]) is None:
+        fail(f"{COMPILER[0]} is missing: scripts/setup.sh installs it")
+    jobs = max(1, arguments.jobs)
     work = arguments.work.resolve()
-    work.mkdir(parents=True, exist_ok=True)
-    workshop = Workshop(work, arguments.jobs)
-    digest = copy_sources(workshop.source)
+    benches = queue.Queue()
+    for number in range(jobs):
+        folder = work / f"bench{number}"
+        folder.mkdir(parents=True, exist_ok=True)
+        benches.put(Bench(folder))
+    digest = digest_of_sources()
     stored = work / "results.json"
     try:
         kept = json.loads(stored.read_text())
@@ -194,13 +227,8 @@ def main():
         partial.write_text(json.dumps({"digest": digest, "faults": results}, indent=1) + "\n")
         partial.replace(stored)
 
-    if not results:
-        print("building and testing without a fault first", flush=True)
-        workshop.configure()
-        failing = workshop.killer()
-        if failing is not None:
-            fail(f"without any fault: {failing}; see {workshop.log}")
-    run(mutants, workshop, results, save)
+    print(f"{len(TESTS)} test programs without a fault first", flush=True)
+    run(mutants, benches, jobs, measure_tests(benches, jobs), results, save)
     return report(mutants, results)
 
 
