@@ -98,7 +98,9 @@ void job_options::add_to(CLI::App& command) {
       .add_option("--mask-disc", discontinuity_mask,
                   "255 = near a depth discontinuity: adds accuracy over those pixels")
       ->option_text("FILE");
-  command.add_option("--seed", run.seed, "seed of random input gaps and output stalls (default 1)")->option_text("N");
+  command.add_option("--seed", run.seed, "seed of random input gaps and output stalls (default 1)")
+      ->option_text("N")
+      ->check(CLI::NonNegativeNumber);  // -1 would become a large number
   command
       .add_option("--input-gaps", run.input_gap_percent,
                   "rtl, netlist: chance in per cent, 0 to 95, that an input pauses in a clock (default 0)")

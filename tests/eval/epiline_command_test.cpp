@@ -323,6 +323,7 @@ TEST_F(epiline_command, refuses_bad_names_and_values) {
   expect_error("match left.png right.png --levels many", "--levels");
   expect_error("match left.png right.png --input-gaps 96", "--input-gaps");
   expect_error("match left.png right.png --output-stalls -1", "--output-stalls");
+  expect_error("match left.png right.png --seed -1", "--seed", "-1");
   expect_error("match left.png right.png third.png", "third.png");
   expect_error("match left.png right.png --unknown", "--unknown");
   expect_error("compare left.png right.png --engines golden", "two names or more");
