@@ -141,9 +141,11 @@ compiled_source compile(const source_options& options, llvm::LLVMContext& contex
                                      "-Wno-invalid-constexpr",
                                      "-fno-threadsafe-statics"};
   std::vector<std::string> preprocess = common;
+  // The types come before a vendor's of the same names; the kernels after the user's own, which may be a changed copy.
   preprocess.insert(preprocess.end(), {"-E", wrapper, "-o", preprocessed, "-I", EPILINE_TYPES_DIRECTORY, "-I",
-                                       EPILINE_FRONTEND_INCLUDES, "-I", EPILINE_TYPES_DIRECTORY "/.."});
+                                       EPILINE_FRONTEND_INCLUDES});
   for (const std::string& path : options.includes) preprocess.insert(preprocess.end(), {"-I", path});
+  preprocess.insert(preprocess.end(), {"-I", EPILINE_TYPES_DIRECTORY "/.."});
   for (const std::string& definition : options.definitions) preprocess.push_back("-D" + definition);
   if (!run_clang(preprocess, messages)) refuse_compilation(options, read_file(messages));
 
