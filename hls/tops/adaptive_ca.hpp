@@ -13,7 +13,6 @@
 #include "kernels/winner.hpp"
 #include "tops/stereo_interface.hpp"
 #include "window/bits.hpp"
-#include "window/line_buffer.hpp"
 #include "window/raster.hpp"
 
 namespace epiline::tops {
@@ -31,14 +30,12 @@ template <class Config>
 struct adaptive_ca_interface : stereo_interface<Config> {
   /// How the raster walks over a frame: the windows of the matcher and of the automaton's two rules lie one behind the
   /// other, the columns between two rows serve them all.
-  struct schedule {
-    static constexpr int maximum_beats = window::divide_up(Config::max_width, Config::pixels_per_beat);
-    static constexpr int maximum_rows = Config::max_height;
+  struct schedule : stereo_schedule<Config> {
     static constexpr int padding_beats = kernels::adaptive_sad<Config>::delay_beats;
     static constexpr int padding_rows =
         kernels::adaptive_sad<Config>::window_radius + kernels::ca_filter<Config>::delay_rows;
-    static constexpr int minimum_row_beats = window::shortest_row;
-    static constexpr int flush_beats = window::larger(kernels::ca_filter<Config>::delay_beats, minimum_row_beats);
+    static constexpr int flush_beats =
+        window::larger(kernels::ca_filter<Config>::delay_beats, stereo_schedule<Config>::minimum_row_beats);
   };
   using t2_t = ap_uint<8>;
   using t5_t = ap_uint<12>;

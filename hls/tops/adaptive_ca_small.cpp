@@ -2,11 +2,7 @@
 #include "tops/adaptive_ca.hpp"
 
 namespace {
-struct config : epiline::tops::adaptive_ca_config {
-  static constexpr int max_width = 64;
-  static constexpr int max_height = 255;
-  static constexpr int levels = 8;
-};
+using config = epiline::tops::few_levels_of<epiline::tops::adaptive_ca_config>;
 using types = epiline::tops::adaptive_ca_interface<config>;
 }  // namespace
 

@@ -13,7 +13,6 @@
 #include "kernels/winner.hpp"
 #include "tops/stereo_interface.hpp"
 #include "window/bits.hpp"
-#include "window/line_buffer.hpp"
 #include "window/raster.hpp"
 
 namespace epiline::tops {
@@ -34,15 +33,12 @@ struct color_fuzzy_config {
 template <class Config>
 struct color_fuzzy_interface : stereo_interface<Config> {
   /// How the raster walks over a frame.
-  struct schedule {
-    static constexpr int maximum_beats = window::divide_up(Config::max_width, Config::pixels_per_beat);
-    static constexpr int maximum_rows = Config::max_height;
+  struct schedule : stereo_schedule<Config> {
     static constexpr int padding_beats = kernels::color_sad<Config>::delay_beats;
     static constexpr int padding_rows = Config::window_radius;
     static constexpr int flush_beats = kernels::uniqueness_check<Config>::delay_beats +
                                        kernels::left_right_check<Config>::delay_beats +
                                        2 * kernels::fuzzy_filter<Config>::delay_beats;
-    static constexpr int minimum_row_beats = window::shortest_row;
   };
   static_assert(schedule::padding_beats * Config::pixels_per_beat >= Config::fuzzy_radius,
                 "rows lie too close for the fuzzy filter");

@@ -2,11 +2,7 @@
 #include "tops/color_fuzzy.hpp"
 
 namespace {
-struct config : epiline::tops::color_fuzzy_config {
-  static constexpr int max_width = 64;
-  static constexpr int max_height = 255;
-  static constexpr int levels = 8;
-};
+using config = epiline::tops::few_levels_of<epiline::tops::color_fuzzy_config>;
 using types = epiline::tops::color_fuzzy_interface<config>;
 }  // namespace
 

@@ -6,8 +6,25 @@
 #include "kernels/color.hpp"
 #include "kernels/disparity.hpp"
 #include "window/bits.hpp"
+#include "window/line_buffer.hpp"
 
 namespace epiline::tops {
+
+/// A method's configuration for small devices and quick experiments.
+template <class Full>
+struct few_levels_of : Full {
+  static constexpr int max_width = 64;
+  static constexpr int max_height = 255;
+  static constexpr int levels = 8;
+};
+
+/// What all methods' walks over a frame have in common; see window::raster.
+template <class Config>
+struct stereo_schedule {
+  static constexpr int maximum_beats = window::divide_up(Config::max_width, Config::pixels_per_beat);
+  static constexpr int maximum_rows = Config::max_height;
+  static constexpr int minimum_row_beats = window::shortest_row;
+};
 
 /// The types of a configuration's interface. Config: max_width, max_height, levels, pixels_per_beat.
 template <class Config>

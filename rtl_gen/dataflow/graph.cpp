@@ -261,6 +261,18 @@ const char* name_of(operation kind) {
   return index < operation_names.size() ? operation_names[index] : "unknown";
 }
 
+const char* name_of(port_kind kind) {
+  switch (kind) {
+    case port_kind::stream:
+      return "stream";
+    case port_kind::call:
+      return "call";
+    case port_kind::result:
+      return "result";
+  }
+  return "unknown";
+}
+
 std::string find_violation(const graph& g) { return checker(g).run(); }
 
 }  // namespace epiline::dataflow

@@ -153,5 +153,6 @@ struct graph {
 [[nodiscard]] std::string find_violation(const graph& g);
 
 [[nodiscard]] const char* name_of(operation kind);
+[[nodiscard]] const char* name_of(port_kind kind);
 
 }  // namespace epiline::dataflow

@@ -35,8 +35,7 @@ const char* object_word(operation kind) {
   }
 }
 
-constexpr std::pair<port_kind, std::string_view> port_kind_words[] = {
-    {port_kind::stream, "stream"}, {port_kind::call, "call"}, {port_kind::result, "result"}};
+constexpr port_kind port_kinds[] = {port_kind::stream, port_kind::call, port_kind::result};
 
 // ---------------------------------------------------------------------------------------------------- printing
 
@@ -102,10 +101,7 @@ class printer {
   }
 
   void print_port(const port& p) {
-    std::string_view kind;
-    for (const auto& [value, word] : port_kind_words)
-      if (value == p.kind) kind = word;
-    put("{} {} {} {}", p.input ? "input" : "output", kind, quoted(p.name), p.width);
+    put("{} {} {} {}", p.input ? "input" : "output", name_of(p.kind), quoted(p.name), p.width);
     end_line(p.where);
     for (const field& f : p.fields)
       put("  field {} {} {}{}\n", quoted(f.name), quoted(f.signal), f.width, f.is_signed ? " signed" : "");
@@ -351,14 +347,10 @@ class parser {
   void parse_port(line_reader& line, bool input) {
     port p;
     p.input = input;
-    const std::pair<port_kind, std::string_view>* found = nullptr;
-    for (const auto& candidate : port_kind_words)
-      if (line.take(candidate.second)) {
-        found = &candidate;
-        break;
-      }
-    if (found == nullptr) line.unexpected("stream, call or result");
-    p.kind = found->first;
+    const auto* const found = std::find_if(std::begin(port_kinds), std::end(port_kinds),
+                                           [&](port_kind kind) { return line.take(name_of(kind)); });
+    if (found == std::end(port_kinds)) line.unexpected("stream, call or result");
+    p.kind = *found;
     p.name = line.need_string("the port's name in quotes");
     p.width = line.need_width();
     p.where = line.need_place_and_end();

@@ -8,21 +8,9 @@ namespace epiline::emit {
 
 namespace {
 
-const char* kind_name(dataflow::port_kind kind) {
-  switch (kind) {
-    case dataflow::port_kind::stream:
-      return "stream";
-    case dataflow::port_kind::call:
-      return "call";
-    case dataflow::port_kind::result:
-      return "result";
-  }
-  return "";
-}
-
 rtl_port describe(const dataflow::port& port) {
   rtl_port described{.name = port.name,
-                     .kind = kind_name(port.kind),
+                     .kind = name_of(port.kind),
                      .input = port.input,
                      .width = port.width,
                      .valid = signal_name(port, "tvalid"),

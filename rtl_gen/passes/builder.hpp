@@ -45,6 +45,8 @@ class builder {
   node_id equal(node_id a, node_id b) { return make(operation::equal, 1, {a, b}); }
   node_id less_unsigned(node_id a, node_id b) { return make(operation::less_unsigned, 1, {a, b}); }
   node_id select(node_id c, node_id a, node_id b) { return make(operation::select, width(a), {c, a, b}); }
+  /// condition ? -a : a
+  node_id negate_if(node_id condition, node_id a) { return select(condition, subtract(constant(width(a), 0), a), a); }
   /// High part first. One part is returned as it is.
   node_id concat(std::vector<node_id> parts);
   /// Bits [low, low + width); all of `a` is `a`.

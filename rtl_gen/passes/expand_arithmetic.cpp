@@ -36,10 +36,6 @@ quotient_and_remainder divide_unsigned(builder& b, node_id dividend, node_id div
   return {b.concat(std::move(quotient)), remainder};
 }
 
-node_id negate_if(builder& b, node_id condition, node_id value) {
-  return b.select(condition, b.subtract(b.constant(b.width(value), 0), value), value);
-}
-
 node_id divide(builder& b, const node& n) {
   const node_id dividend = n.operands[0], divisor = n.operands[1];
   const bool quotient = n.kind == operation::divide_unsigned || n.kind == operation::divide_signed;
@@ -50,12 +46,12 @@ node_id divide(builder& b, const node& n) {
   const node_id dividend_negative = b.slice(dividend, n.width - 1, 1);
   const node_id divisor_negative = b.slice(divisor, n.width - 1, 1);
   const quotient_and_remainder found =
-      divide_unsigned(b, negate_if(b, dividend_negative, dividend), negate_if(b, divisor_negative, divisor));
-  if (!quotient) return negate_if(b, dividend_negative, found.remainder);
+      divide_unsigned(b, b.negate_if(dividend_negative, dividend), b.negate_if(divisor_negative, divisor));
+  if (!quotient) return b.negate_if(dividend_negative, found.remainder);
   // The quotient of a division by 0 is all ones, whatever the sign.
   const node_id divisor_is_zero = b.equal(divisor, b.constant(n.width, 0));
   const node_id opposite = b.bit_xor(dividend_negative, divisor_negative);
-  return negate_if(b, b.bit_and(opposite, b.bit_not(divisor_is_zero)), found.quotient);
+  return b.negate_if(b.bit_and(opposite, b.bit_not(divisor_is_zero)), found.quotient);
 }
 
 /// A factor without the copies of its sign or the zeros above it.

@@ -61,11 +61,11 @@ node_id divide_by_constant(builder& b, const node& n) {
   const bool is_signed = n.kind == operation::divide_signed || n.kind == operation::remainder_signed;
   node_id result = none;
   if (is_signed) {  // of magnitudes, and the sign afterwards
-    const node_id zero = b.constant(n.width, 0), negative = b.slice(x, n.width - 1, 1);
-    const node_id magnitude = b.select(negative, b.subtract(zero, x), x);
+    const node_id negative = b.slice(x, n.width - 1, 1);
+    const node_id magnitude = b.negate_if(negative, x);
     const node_id unsigned_result = quotient_unsigned(b, magnitude, divisor.abs());
     const node_id opposite = divisor.isNegative() ? b.bit_not(negative) : negative;
-    result = b.select(opposite, b.subtract(zero, unsigned_result), unsigned_result);
+    result = b.negate_if(opposite, unsigned_result);
   } else {
     result = quotient_unsigned(b, x, divisor);
   }

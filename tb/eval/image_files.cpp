@@ -273,14 +273,7 @@ std::string pfm_of(const real_map& map) {
   return bytes;
 }
 
-std::string pfm_of(const disparity_map& map) {
-  real_map values{map.width, map.height, {}};
-  values.values.reserve(map.disparity.size());
-  for (std::size_t i = 0; i < map.disparity.size(); ++i) {
-    values.values.push_back(map.defined[i] != 0 ? map.disparity[i] : std::numeric_limits<double>::quiet_NaN());
-  }
-  return pfm_of(values);
-}
+std::string pfm_of(const disparity_map& map) { return pfm_of(real_values_of(map)); }
 
 std::string png_of(const rgb_image& image) {
   cv::Mat picture(image.height, image.width, CV_8UC3);

@@ -17,8 +17,10 @@ pixel_mask empty_mask(int width, int height) {
 /// The column of the right image, perhaps outside it. Halves round to the even column, as OpenCV's rounding does.
 long matching_column(int x, double disparity) { return x - std::lrint(disparity); }
 
-pixel_mask seen_beside(const real_map& left_truth, const real_map& right_nearest) {
-  pixel_mask mask = empty_mask(left_truth.width, left_truth.height);
+/// Calls use(index of the left pixel, its disparity, index of the right pixel it matches) for every pixel of known
+/// truth whose match lies in the right image.
+template <class Use>
+void for_each_match(const real_map& left_truth, Use use) {
   for (int y = 0; y < left_truth.height; ++y) {
     const std::size_t row = static_cast<std::size_t>(y) * left_truth.width;
     for (int x = 0; x < left_truth.width; ++x) {
@@ -26,11 +28,17 @@ pixel_mask seen_beside(const real_map& left_truth, const real_map& right_nearest
       if (!std::isfinite(disparity)) continue;
       const long column = matching_column(x, disparity);
       if (column < 0 || column >= left_truth.width) continue;
-      const double there = right_nearest.values[row + static_cast<std::size_t>(column)];
-      // An unknown truth (NaN) is never "not nearer".
-      mask.selected[row + x] = there <= disparity + occlusion_threshold;
+      use(row + x, disparity, row + static_cast<std::size_t>(column));
     }
   }
+}
+
+pixel_mask seen_beside(const real_map& left_truth, const real_map& right_nearest) {
+  pixel_mask mask = empty_mask(left_truth.width, left_truth.height);
+  for_each_match(left_truth, [&](std::size_t pixel, double disparity, std::size_t match) {
+    // An unknown truth (NaN) is never "not nearer".
+    mask.selected[pixel] = right_nearest.values[match] <= disparity + occlusion_threshold;
+  });
   return mask;
 }
 
@@ -45,17 +53,9 @@ pixel_mask non_occluded_by_right_truth(const real_map& left_truth, const real_ma
 
 pixel_mask non_occluded_by_left_truth(const real_map& left_truth) {
   real_map nearest{left_truth.width, left_truth.height, std::vector<double>(left_truth.values.size(), nothing)};
-  for (int y = 0; y < left_truth.height; ++y) {
-    const std::size_t row = static_cast<std::size_t>(y) * left_truth.width;
-    for (int x = 0; x < left_truth.width; ++x) {
-      const double disparity = left_truth.values[row + x];
-      if (!std::isfinite(disparity)) continue;
-      const long column = matching_column(x, disparity);
-      if (column < 0 || column >= left_truth.width) continue;
-      double& there = nearest.values[row + static_cast<std::size_t>(column)];
-      there = std::max(there, disparity);
-    }
-  }
+  for_each_match(left_truth, [&](std::size_t, double disparity, std::size_t match) {
+    nearest.values[match] = std::max(nearest.values[match], disparity);
+  });
   return seen_beside(left_truth, nearest);
 }
 

@@ -18,19 +18,7 @@ constexpr std::uint64_t most_iterations = 200'000;
 /// Clocks a pipeline may take to fill and drain, and a first call to start, beside the clocks of its iterations.
 constexpr std::uint64_t latency_allowance = 400;
 
-const char* kind_name(dataflow::port_kind kind) {
-  switch (kind) {
-    case dataflow::port_kind::stream:
-      return "stream";
-    case dataflow::port_kind::call:
-      return "call";
-    case dataflow::port_kind::result:
-      return "result";
-  }
-  return "";
-}
-
-const char* kind_name(cosim::port_kind kind) {
+const char* name_of(cosim::port_kind kind) {
   switch (kind) {
     case cosim::port_kind::stream:
       return "stream";
@@ -47,7 +35,7 @@ const char* kind_name(cosim::port_kind kind) {
 /// The recorded port that belongs to a level's port: the call port by its kind, all others by name too.
 template <class Port>
 const recorded_port& find_recorded(const std::vector<recorded_port>& recorded, const Port& port) {
-  const std::string kind = kind_name(port.kind);
+  const std::string kind = name_of(port.kind);
   for (const recorded_port& candidate : recorded) {
     if (candidate.kind == kind && candidate.input == port.input && (kind == "call" || candidate.name == port.name)) {
       return candidate;
@@ -62,7 +50,7 @@ void check_count(const Ports& ports, const std::vector<recorded_port>& recorded)
   if (ports.size() == recorded.size()) return;
   for (const recorded_port& port : recorded) {
     const bool there = std::ranges::any_of(ports, [&](const auto& candidate) {
-      return kind_name(candidate.kind) == port.kind && (port.kind == "call" || candidate.name == port.name);
+      return name_of(candidate.kind) == port.kind && (port.kind == "call" || candidate.name == port.name);
     });
     if (!there) throw std::runtime_error(fmt::format("no port '{}'", port.name));
   }

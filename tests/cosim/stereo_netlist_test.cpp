@@ -14,20 +14,14 @@
 namespace epiline::cosim {
 namespace {
 
-template <class Full>
-struct few_levels_of : Full {
-  static constexpr int max_width = 64;
-  static constexpr int max_height = 255;
-  static constexpr int levels = 8;
-};
 struct color_fuzzy_netlist {
   using method = color_fuzzy_method;
-  using config = few_levels_of<tops::color_fuzzy_config>;
+  using config = tops::few_levels_of<tops::color_fuzzy_config>;
   static auto make(std::uint64_t seed) { return make_color_fuzzy_small_netlist_model(seed); }
 };
 struct adaptive_ca_netlist {
   using method = adaptive_ca_method;
-  using config = few_levels_of<tops::adaptive_ca_config>;
+  using config = tops::few_levels_of<tops::adaptive_ca_config>;
   static auto make(std::uint64_t seed) { return make_adaptive_ca_small_netlist_model(seed); }
 };
 

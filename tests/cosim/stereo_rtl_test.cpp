@@ -14,14 +14,6 @@
 namespace epiline::cosim {
 namespace {
 
-/// A method's configuration with few levels, as in hls/tops/*_small.cpp.
-template <class Full>
-struct few_levels_of : Full {
-  static constexpr int max_width = 64;
-  static constexpr int max_height = 255;
-  static constexpr int levels = 8;
-};
-
 struct color_fuzzy_full {
   using method = color_fuzzy_method;
   using config = method::config;
@@ -38,7 +30,7 @@ struct color_fuzzy_two_pixels {
 };
 struct color_fuzzy_few_levels {
   using method = color_fuzzy_method;
-  using config = few_levels_of<tops::color_fuzzy_config>;
+  using config = tops::few_levels_of<tops::color_fuzzy_config>;
   static constexpr const char* graph = COLOR_FUZZY_SMALL_GRAPH;
   static auto make(std::uint64_t seed) { return make_color_fuzzy_small_rtl_model(seed); }
 };
@@ -50,7 +42,7 @@ struct adaptive_ca_full {
 };
 struct adaptive_ca_few_levels {
   using method = adaptive_ca_method;
-  using config = few_levels_of<tops::adaptive_ca_config>;
+  using config = tops::few_levels_of<tops::adaptive_ca_config>;
   static constexpr const char* graph = ADAPTIVE_CA_SMALL_GRAPH;
   static auto make(std::uint64_t seed) { return make_adaptive_ca_small_rtl_model(seed); }
 };
