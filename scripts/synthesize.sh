@@ -1,20 +1,21 @@
 #!/usr/bin/env bash
-# Yosys: synthesizes generated Verilog for ECP5 and counts what it takes.
+# Yosys: synthesizes generated Verilog for an FPGA and counts what it takes.
 #
-#   scripts/synthesize.sh VERILOG TOP -o FOLDER
+#   scripts/synthesize.sh VERILOG... TOP -o FOLDER [--target ecp5|hx8k]
 #
-# Writes FOLDER/TOP.json (netlist for nextpnr), FOLDER/TOP_netlist.v (the same for simulation, with the cells of
+# Writes FOLDER/TOP.json (netlist for nextpnr), FOLDER/TOP_netlist.v (the same for simulation; of ECP5 with the cells of
 # tb/cosim/ecp5_cells.v), FOLDER/resources.json and FOLDER/yosys.log. Fails when Yosys finds a problem (several drivers,
 # a combinational loop, an undriven wire, a latch) or when an array did not become RAM, unless its ram_style in the
 # Verilog is "registers".
 #
-# Environment: YOSYS = the program to run (default: yosys), YOSYS_OPTIONS = further options of synth_ecp5.
+# Environment: YOSYS = the program to run (default: yosys; scripts/fpga.sh names the pinned one), YOSYS_OPTIONS = further
+# options of synth_ecp5 or synth_ice40.
 # shellcheck source=scripts/common.sh
 caller=$PWD
 source "$(dirname "$0")/common.sh"
 
 positional=()
-folder=''
+folder='' target=ecp5
 while [ $# -gt 0 ]; do
   case $1 in
     -h | --help)
@@ -26,19 +27,35 @@ while [ $# -gt 0 ]; do
       folder=$2
       shift
       ;;
+    --target)
+      [ $# -ge 2 ] || fail "$1 needs a value"
+      target=$2
+      shift
+      ;;
     -*) fail "unknown argument '$1' (see --help)" ;;
     *) positional+=("$1") ;;
   esac
   shift
 done
-if [ ${#positional[@]} -eq 3 ] && [ -z "$folder" ]; then folder=${positional[2]}; fi
-[ ${#positional[@]} -ge 2 ] && [ ${#positional[@]} -le 3 ] && [ -n "$folder" ] ||
-  fail "usage: synthesize.sh VERILOG TOP -o FOLDER"
+[ ${#positional[@]} -ge 2 ] && [ -n "$folder" ] ||
+  fail "usage: synthesize.sh VERILOG... TOP -o FOLDER [--target ecp5|hx8k]"
+case $target in
+  ecp5) synthesis=synth_ecp5 ;;
+  hx8k) synthesis='synth_ice40 -device hx' ;;
+  *) fail "unknown target '$target' (known: ecp5, hx8k)" ;;
+esac
 
 # Names are relative to where the caller stands.
 from_caller() { case $1 in /*) echo "$1" ;; *) echo "$caller/$1" ;; esac; }
-verilog=$(from_caller "${positional[0]}") top=${positional[1]} folder=$(from_caller "$folder")
-[ -r "$verilog" ] || fail "'$verilog' is not a readable file"
+top=${positional[-1]} folder=$(from_caller "$folder")
+sources=() read_sources=''
+for name in "${positional[@]::${#positional[@]}-1}"; do
+  source_file=$(from_caller "$name")
+  [ -r "$source_file" ] && [ ! -d "$source_file" ] || fail "'$source_file' is not a readable file"
+  sources+=("$source_file")
+  read_sources+="
+  read_verilog \"$source_file\""
+done
 [[ $top =~ ^[A-Za-z_][A-Za-z0-9_]*$ ]] || fail "'$top' is not the name of a module"
 yosys=${YOSYS:-yosys}
 need "$yosys" yosys
@@ -46,14 +63,13 @@ need python3 python3
 mkdir -p "$folder" || fail "cannot write to '$folder'"
 rm -f "$folder/resources.json" "$folder/$top.json" "$folder/${top}_netlist.v"
 
-# The steps of synth_ecp5, stopped where the memories are known and again where those that did not fit a RAM are left.
+# The steps of the synthesis, stopped where the memories are known and again where those that did not fit a RAM are left.
 # Loops are visible to Yosys only before it maps to cells; what else that early check says is not yet final.
 # "$mem_v2" cells carry the name of the Verilog array in MEMID.
-# shellcheck disable=SC2206  # the variable is a list of words
-options=(${YOSYS_OPTIONS:-})
+synthesis+=" -top $top ${YOSYS_OPTIONS:-}"
 # Operators with a mapping of their own are black boxes until then, so that their widths stay parameters.
 operators=''
-if grep -q '^module epiline_add_or_subtract' "$verilog"; then
+if [ "$target" = ecp5 ] && grep -q '^module epiline_add_or_subtract' "${sources[@]}"; then
   operators="
     blackbox epiline_add_or_subtract
     hierarchy -top $top
@@ -61,15 +77,15 @@ if grep -q '^module epiline_add_or_subtract' "$verilog"; then
 fi
 # Yosys runs inside the folder: it takes no quotes around the names of its output files.
 if ! (cd "$folder" && "$yosys" -Q -T -q -l yosys.log -p "
-  read_verilog \"$verilog\"
+  $read_sources
   $operators
-  synth_ecp5 -top $top ${options[*]} -run begin:map_ram
+  $synthesis -run begin:map_ram
   tee -o early_check.txt check
   select -assert-none t:\$_DLATCH* t:\$dlatch %u
   tee -o memories.txt dump t:\$mem_v2
-  synth_ecp5 -top $top ${options[*]} -run map_ram:map_ffram
+  $synthesis -run map_ram:map_ffram
   tee -o lost_memories.txt dump t:\$mem_v2
-  synth_ecp5 -top $top ${options[*]} -run map_ffram:json -json $top.json
+  $synthesis -run map_ffram:json -json $top.json
   check -assert
   select -assert-none t:\$_DLATCH* t:\$dlatch %u
   tee -q -o statistics.json stat -json
@@ -82,4 +98,4 @@ fi
 if loop=$(grep -m1 -A3 'found logic loop' "$folder/early_check.txt"); then
   fail "the Verilog has a combinational loop: $loop"
 fi
-python3 scripts/netlist_resources.py "$folder" "$top" "$verilog"
+python3 scripts/netlist_resources.py "$folder" "$top" "$target" "${sources[@]}"

@@ -152,6 +152,26 @@ class synthesize(unittest.TestCase):
         result = self.synthesize(THREE_PORTS.replace("  reg [7:0] store", '  (* ram_style = "registers" *) reg [7:0] store'))
         self.assertEqual(result.returncode, 0, result.stderr)
 
+    def test_reads_several_files(self):
+        (self.folder / "inner.v").write_text(RAM.replace("module top", "module inner"), encoding="utf-8")
+        outer = """module top (input wire clk, input wire write, input wire [9:0] from, input wire [9:0] to,
+                               input wire [17:0] data, output wire [17:0] word);
+          inner instance_of_it (.clk(clk), .write(write), .from(from), .to(to), .data(data), .word(word));
+        endmodule"""
+        (self.folder / "top.v").write_text(outer, encoding="utf-8")
+        result = self.run_script("inner.v", "top.v", "top", "-o", "out")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.resources()["memories"], ["store"])
+
+    def test_counts_cells_of_the_small_device(self):
+        (self.folder / "top.v").write_text(RAM, encoding="utf-8")
+        result = self.run_script("top.v", "top", "-o", "out", "--target", "hx8k")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        resources = self.resources()
+        self.assertEqual(resources["block_rams"], resources["cells"]["SB_RAM40_4K"])
+        self.assertEqual(resources["block_rams"], 5)  # 4 bits wide at 1024 words each
+        self.assertEqual(resources["lut4"], resources["cells"]["SB_LUT4"])
+
     def test_fails_on_a_latch(self):
         self.expect_failure(self.synthesize(LATCH), "Yosys failed")
 
@@ -170,6 +190,7 @@ class synthesize(unittest.TestCase):
         self.expect_failure(self.run_script("top.v"), "usage")
         self.expect_failure(self.run_script("top.v", "top", "-o"), "-o needs a value")
         self.expect_failure(self.run_script("top.v", "top", "--fast"), "unknown argument '--fast'")
+        self.expect_failure(self.run_script("top.v", "top", "-o", "out", "--target", "abacus"), "unknown target 'abacus'")
         self.expect_failure(self.run_script("none.v", "top", "-o", "out"), "none.v' is not a readable file")
         self.expect_failure(self.run_script("top.v", "a b", "-o", "out"), "not the name of a module")
         self.expect_failure(self.run_script("top.v", "other", "-o", "out"), "Yosys failed")
