@@ -36,10 +36,11 @@ inline absolute_difference_t absolute_difference(ap_uint<8> a, ap_uint<8> b) {
 ///
 /// Border policy: left of the row's first pixel stand `BorderPixels` copies of it. Further taps still hold the row
 /// before: they belong to candidates that are not allowed to win (d > x), whatever they cost.
-template <int Lanes, int Length, int BorderPixels>
+/// Several parts: see row_window.
+template <int Lanes, int Length, int BorderPixels, int Parts = 1>
 class pixel_taps {
  public:
-  void step(const color (&beat)[Lanes], bool row_starts) {
+  void step(const color (&beat)[Lanes], bool row_starts, int part = 0) {
 #pragma HLS INLINE
     ap_uint<8> channel[3][Lanes];
     for (int lane = 0; lane < Lanes; ++lane) {
@@ -47,12 +48,12 @@ class pixel_taps {
       channel[1][lane] = beat[lane].green;
       channel[2][lane] = beat[lane].blue;
     }
-    red.step(channel[0], row_starts);
-    green.step(channel[1], row_starts);
-    blue.step(channel[2], row_starts);
+    red.step(channel[0], row_starts, part);
+    green.step(channel[1], row_starts, part);
+    blue.step(channel[2], row_starts, part);
   }
 
-  using channel_window = window::row_window<ap_uint<8>, Lanes, Length, window::replicated_border<BorderPixels>>;
+  using channel_window = window::row_window<ap_uint<8>, Lanes, Length, window::replicated_border<BorderPixels>, Parts>;
   channel_window red;
   channel_window green;
   channel_window blue;

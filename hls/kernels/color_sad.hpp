@@ -3,6 +3,7 @@
 
 #include "kernels/color.hpp"
 #include "kernels/column_sum.hpp"
+#include "kernels/level_groups.hpp"
 #include "kernels/row_sum.hpp"
 #include "window/line_buffer.hpp"
 
@@ -22,8 +23,9 @@ struct color_window {
 ///
 /// Border policy: pixels outside the frame contribute 0. Costs of candidates d > x are meaningless, they must not win.
 /// Lane l of the result belongs to the pixel `window_radius` rows above and `delay_beats` beats before the newest one.
+/// Its levels are those of the iteration's group; the beat's pixels wait for the further groups.
 ///
-/// Config: levels, pixels_per_beat, max_width, window_radius.
+/// Config: levels, parallel_disparities, pixels_per_beat, max_width, window_radius.
 template <class Config>
 class color_sad {
   using columns = column_sum<Config, color_window<Config>>;
@@ -31,7 +33,7 @@ class color_sad {
 
  public:
   static constexpr int lanes = Config::pixels_per_beat;
-  static constexpr int levels = Config::levels;
+  static constexpr int levels = level_groups<Config>::size;  // of a group
   static constexpr int window_rows = 2 * Config::window_radius + 1;
   static constexpr int delay_beats = rows::delay_beats;
   using beat_t = ap_uint<lanes * color_bits>;
@@ -43,40 +45,49 @@ class color_sad {
     typename columns::place column;
     bool row_starts;     // the first beat of a row
     bool row_can_leave;  // a row of this frame leaves the window: at least window_rows rows came before
+    level_group<Config> group;
   };
 
-  /// `left`, `right`: the newest beats, 0 in rows below the frame.
+  /// `left`, `right`: the newest beats, 0 in rows below the frame; looked at in the first group only.
   costs step(const beat_t& left, const beat_t& right, const place& at) {
 #pragma HLS INLINE
-    beat_t oldest_left = 0;
-    beat_t oldest_right = 0;
-    if (at.column.in_columns) {
-      const auto left_above = left_rows_.step(left, at.column.beat);
-      const auto right_above = right_rows_.step(right, at.column.beat);
-      if (at.row_can_leave) {
-        oldest_left = left_above.rows[window_rows - 1];
-        oldest_right = right_above.rows[window_rows - 1];
+    if (at.group.first()) {
+      pixels_ = {left, right, 0, 0};
+      if (at.column.in_columns) {
+        const auto left_above = left_rows_.step(left, at.column.beat);
+        const auto right_above = right_rows_.step(right, at.column.beat);
+        if (at.row_can_leave) {
+          pixels_.oldest_left = left_above.rows[window_rows - 1];
+          pixels_.oldest_right = right_above.rows[window_rows - 1];
+        }
       }
     }
-    const auto entering = differences(left, right, entering_right_, at.row_starts);
-    const auto leaving = differences(oldest_left, oldest_right, leaving_right_, at.row_starts);
-    return rows_.step(columns_.step(entering, leaving, at.column));
+    const auto entering = differences(pixels_.left, pixels_.right, entering_right_, at);
+    const auto leaving = differences(pixels_.oldest_left, pixels_.oldest_right, leaving_right_, at);
+    return rows_.step(columns_.step(entering, leaving, at.column, at.group));
   }
 
  private:
   static constexpr int max_beats = window::divide_up(Config::max_width, lanes);
   // A column right of the window's centre reaches `window_radius` pixels further left than the centre's candidates do.
-  using taps = pixel_taps<lanes, lanes - 1 + levels, Config::window_radius>;
+  using taps = pixel_taps<lanes, lanes - 1 + levels, Config::window_radius, level_groups<Config>::count>;
+
+  struct beat_pixels {
+    beat_t left;
+    beat_t right;
+    beat_t oldest_left;
+    beat_t oldest_right;
+  };
 
   static typename columns::differences differences(const beat_t& left, const beat_t& right, taps& history,
-                                                   bool row_starts) {
+                                                   const place& at) {
     color left_pixels[lanes];
     color right_pixels[lanes];
     for (int lane = 0; lane < lanes; ++lane) {
       left_pixels[lane] = color_of_lane(left, lane);
       right_pixels[lane] = color_of_lane(right, lane);
     }
-    history.step(right_pixels, row_starts);
+    history.step(right_pixels, at.row_starts, at.group.index());
     typename columns::differences result;
     for (int lane = 0; lane < lanes; ++lane) {
       const color pixel = left_pixels[lane];
@@ -92,6 +103,7 @@ class color_sad {
 
   window::line_buffer<beat_t, window_rows, max_beats> left_rows_;
   window::line_buffer<beat_t, window_rows, max_beats> right_rows_;
+  beat_pixels pixels_;
   taps entering_right_;
   taps leaving_right_;
   columns columns_;

@@ -2,6 +2,7 @@
 #include <ap_int.h>
 
 #include "kernels/level_array.hpp"
+#include "kernels/level_groups.hpp"
 #include "window/bits.hpp"
 
 namespace epiline::kernels {
@@ -17,13 +18,14 @@ namespace epiline::kernels {
 /// equals the sum of its columns. It holds at zero and no step breaks it, so nothing is to be reset between rows or
 /// frames; an object must start zeroed (static, or T{}).
 ///
-/// Config: levels, pixels_per_beat. Window: radius, largest_difference of two pixels, delay_beats (at least the beats
-/// of the radius; more of them line the result up with that of a wider window).
+/// Config: levels, parallel_disparities, pixels_per_beat. Window: radius, largest_difference of two pixels, delay_beats
+/// (at least the beats of the radius; more of them line the result up with that of a wider window).
 template <class Config, class Window>
 class row_sum {
  public:
   static constexpr int lanes = Config::pixels_per_beat;
-  static constexpr int levels = Config::levels;
+  static constexpr int groups = level_groups<Config>::count;
+  static constexpr int levels = level_groups<Config>::size;  // of a group
   static constexpr int window_columns = 2 * Window::radius + 1;
   static constexpr int delay_beats = Window::delay_beats;
   static_assert(delay_beats * lanes >= Window::radius, "the window reaches further right than the newest column");
@@ -43,10 +45,11 @@ class row_sum {
       const column_t(&leaving)[levels] = column(newest, lane - skew - window_columns);
       for (int d = 0; d < levels; ++d) {
         change[d] = change[d] + (entering[d] - leaving[d]);
-        result.at[lane][d] = sum_[d] + change[d];
+        result.at[lane][d] = sum_[groups - 1][d] + change[d];
       }
     }
-    for (int d = 0; d < levels; ++d) sum_[d] = result.at[lanes - 1][d];
+    move_groups_on(sum_);
+    for (int d = 0; d < levels; ++d) sum_[0][d] = result.at[lanes - 1][d];
 
     for (int k = history - 1; k >= lanes; --k) {
       for (int d = 0; d < levels; ++d) columns_[k][d] = columns_[k - lanes][d];
@@ -60,16 +63,17 @@ class row_sum {
  private:
   /// How many columns the window's right end lies behind the lane, so that results come out in whole beats.
   static constexpr int skew = delay_beats * lanes - Window::radius;
-  static constexpr int history = window::larger(skew + window_columns, lanes);
+  static constexpr int history = window::larger(skew + window_columns, lanes) * groups;
   using change_t = ap_int<16>;  // modulo 2^16, as the sum
 
-  /// Column i of the newest beat; negative: before it.
+  /// Column i of the newest beat, in the same group of levels; negative: before it.
   const column_t (&column(const column_beat& newest, int i) const)[levels] {
-    return i >= 0 ? newest.at[i] : columns_[-1 - i];
+    return i >= 0 ? newest.at[i] : columns_[-i * groups - 1];
   }
 
-  column_t columns_[history][levels];  // [0] = the last column before the newest beat
-  cost_t sum_[levels];
+  // [0] = the last column before the newest beat; of several groups: the last group of that column, and so on.
+  column_t columns_[history][levels];
+  cost_t sum_[groups][levels];
 };
 
 }  // namespace epiline::kernels

@@ -3,6 +3,7 @@
 
 #include "kernels/color_sad.hpp"
 #include "kernels/disparity.hpp"
+#include "kernels/level_groups.hpp"
 #include "window/delay_line.hpp"
 #include "window/reduce.hpp"
 
@@ -14,15 +15,17 @@ namespace epiline::kernels {
 /// threshold ceil(ratio * m1 / 16). No rival: kept. A ratio of 0 keeps all.
 ///
 /// The rivals are known only after the winner, so all costs wait in block RAM for `Config::uniqueness_delay`
-/// iterations, which must cover the pipeline depth of the winner's tree; they come out beside the winner.
+/// iterations, which must cover the pipeline depth of the winner's tree, and with several groups of levels for those
+/// that come behind them; they come out beside the winner.
 ///
-/// Config: levels, pixels_per_beat, window_radius, max_width, uniqueness_delay.
+/// Config: levels, parallel_disparities, pixels_per_beat, window_radius, max_width, uniqueness_delay.
 template <class Config>
 class uniqueness_check {
  public:
   static constexpr int lanes = Config::pixels_per_beat;
-  static constexpr int levels = Config::levels;
-  static constexpr int delay_beats = Config::uniqueness_delay;
+  static constexpr int groups = level_groups<Config>::count;
+  static constexpr int levels = level_groups<Config>::size;  // of a group
+  static constexpr int delay_beats = window::divide_up(Config::uniqueness_delay + groups - 1, groups);
   using costs_t = typename color_sad<Config>::costs;
   using cost_t = typename color_sad<Config>::cost_t;
   using ratio_t = ap_uint<5>;
@@ -33,22 +36,26 @@ class uniqueness_check {
   };
 
   /// `costs`: masked (see candidate_mask); `lowest[l]`: the cost of found.pixel[l]; `ratio` in sixteenths.
-  /// The result belongs to the beat of `delay_beats` steps ago.
-  result step(const costs_t& costs, const disparity_beat_of<lanes>& found, const cost_t (&lowest)[lanes],
-              ratio_t ratio) {
+  /// `costs` of the group; `found` and `lowest` are looked at in the beat's last one.
+  /// The result belongs to the beat of `delay_beats` beats ago; `found` is valid in the last group.
+  result step(const costs_t& costs, const disparity_beat_of<lanes>& found, const cost_t (&lowest)[lanes], ratio_t ratio,
+              const level_group<Config>& group) {
 #pragma HLS INLINE
-    waiting_winners newest;
-    newest.found = found;
-    for (int lane = 0; lane < lanes; ++lane) newest.threshold[lane] = threshold(lowest[lane], ratio);
-    const waiting_winners now = winners_.step(newest);
+    if (group.first()) now_ = winners_.oldest();
+    if (group.last()) {
+      waiting_winners newest;
+      newest.found = found;
+      for (int lane = 0; lane < lanes; ++lane) newest.threshold[lane] = threshold(lowest[lane], ratio);
+      winners_.push(newest);
+    }
     result out;
     out.costs = costs_.step(costs);
-    out.found = now.found;
     for (int lane = 0; lane < lanes; ++lane) {
-      if (has_rival(out.costs.at[lane], now.found.pixel[lane].disparity, now.threshold[lane])) {
-        out.found.pixel[lane].defined = 0;
+      if (has_rival(out.costs.at[lane], now_.found.pixel[lane].disparity, now_.threshold[lane], group.first_level())) {
+        now_.found.pixel[lane].defined = 0;
       }
     }
+    out.found = now_.found;
     return out;
   }
 
@@ -63,19 +70,20 @@ class uniqueness_check {
     return rounded_up > cost_t(~cost_t(0)) ? cost_t(~cost_t(0)) : cost_t(rounded_up);  // no cost lies between the two
   }
 
-  static bool has_rival(const cost_t (&costs)[levels], disparity_t winner, cost_t threshold) {
+  static bool has_rival(const cost_t (&costs)[levels], disparity_t winner, cost_t threshold, disparity_t first_level) {
     const ap_uint<8> last_neighbour = winner + 1;
     const ap_uint<8> first_neighbour = winner == 0 ? ap_uint<8>(0) : ap_uint<8>(winner - 1);
     ap_uint<1> rival[levels];
     for (int d = 0; d < levels; ++d) {
-      const ap_uint<8> level = window::indices<levels>.of[d];
+      const ap_uint<8> level = first_level + window::indices<levels>.of[d];
       rival[d] = costs[d] < threshold && (level < first_neighbour || level > last_neighbour);
     }
     return window::reduce(rival, [](ap_uint<1> a, ap_uint<1> b) -> ap_uint<1> { return a | b; }) != 0;
   }
 
   window::delay_line<waiting_winners, delay_beats> winners_;
-  window::delay_line<costs_t, delay_beats> costs_;
+  window::delay_line<costs_t, delay_beats * groups> costs_;
+  waiting_winners now_;  // of the beat whose costs have waited
 };
 
 }  // namespace epiline::kernels

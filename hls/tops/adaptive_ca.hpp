@@ -8,6 +8,7 @@
 #include "kernels/ca_filter.hpp"
 #include "kernels/candidates.hpp"
 #include "kernels/disparity.hpp"
+#include "kernels/level_groups.hpp"
 #include "kernels/local_variation.hpp"
 #include "kernels/luma.hpp"
 #include "kernels/winner.hpp"
@@ -22,6 +23,7 @@ struct adaptive_ca_config {
   static constexpr int max_width = 1024;
   static constexpr int max_height = 4095;
   static constexpr int levels = 80;  // at most 128
+  static constexpr int parallel_disparities = kernels::all_levels;  // computed in one clock
   static constexpr int pixels_per_beat = 1;
 };
 

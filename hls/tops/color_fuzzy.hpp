@@ -9,6 +9,7 @@
 #include "kernels/fuzzy_filter.hpp"
 #include "kernels/fuzzy_rule_base.hpp"
 #include "kernels/left_right_check.hpp"
+#include "kernels/level_groups.hpp"
 #include "kernels/uniqueness.hpp"
 #include "kernels/winner.hpp"
 #include "tops/stereo_interface.hpp"
@@ -21,7 +22,8 @@ namespace epiline::tops {
 struct color_fuzzy_config {
   static constexpr int max_width = 1024;
   static constexpr int max_height = 4095;
-  static constexpr int levels = 80;  // at most 128
+  static constexpr int levels = 80;                                 // at most 128
+  static constexpr int parallel_disparities = kernels::all_levels;  // computed in one clock; a divisor of levels
   static constexpr int pixels_per_beat = 1;
   static constexpr int window_radius = 3;
   static constexpr int fuzzy_radius = 3;
@@ -65,6 +67,7 @@ void color_fuzzy_frame(hls::stream<typename color_fuzzy_interface<Config>::video
 
   // State lives on from frame to frame: calls follow one another without a bubble, and nothing needs a reset.
   static sad matcher;
+  static best_of_groups<Config, typename sad::cost_t> best;
   static uniqueness_check<Config> unique;
   static left_right_check<Config> agreement;
   static fuzzy_filter<Config> first_pass;
@@ -72,15 +75,17 @@ void color_fuzzy_frame(hls::stream<typename color_fuzzy_interface<Config>::video
 
   const typename frame_raster::beats_t beats = (width + (lanes - 1)) / lanes;
   frame_raster raster(beats, height);
+  level_group<Config> group;
   // What stands in the delay lines at power-up must not reach the output: nothing is written before they have been
   // filled.
   ap_uint<window::bits_for(schedule::flush_beats)> until_filled = schedule::flush_beats;
+  typename frame_raster::ends ends_before = {false, false};  // as the iteration before saw them
   bool more = true;
   do {
 #pragma HLS PIPELINE II = 1
     typename sad::beat_t left_pixels = 0;
     typename sad::beat_t right_pixels = 0;
-    if (raster.in_frame()) {
+    if (group.first() && raster.in_frame()) {
       left_pixels = left.read().data;
       right_pixels = right.read().data;
     }
@@ -92,6 +97,7 @@ void color_fuzzy_frame(hls::stream<typename color_fuzzy_interface<Config>::video
     at.column.first_row = raster.row() == 0;
     at.row_starts = raster.beat() == 0;
     at.row_can_leave = raster.row() >= sad::window_rows;
+    at.group = group;
     const auto all_costs = matcher.step(left_pixels, right_pixels, at);
 
     // The pixel the costs belong to lies half a window above and left of the newest one.
@@ -102,23 +108,30 @@ void color_fuzzy_frame(hls::stream<typename color_fuzzy_interface<Config>::video
     bool pixel_in[lanes];
     lanes_inside(centre_x, width, centre_in_rows && centre_started, pixel_in);
     const auto costs =
-        candidate_mask<Config, typename sad::costs, sad::penalty>::step(all_costs, centre_x, pixel_in, levels);
+        candidate_mask<Config, typename sad::costs, sad::penalty>::step(all_costs, centre_x, pixel_in, levels, group);
 
     disparity_beat_of<lanes> found;
     typename sad::cost_t lowest[lanes];
     pick_winners(costs, pixel_in, found.pixel, lowest);
+    best.step(found.pixel, lowest, group);
     found.marks.in_frame = pixel_in[0];
     found.marks.first_beat = raster.row() == schedule::padding_rows && centre_beat == 0;
     found.marks.last_of_row = centre_beat == beats - 1;
 
-    const auto confident = unique.step(costs, found, lowest, uniqueness);
-    const auto agreed = agreement.step(confident.costs, confident.found, left_right);
-    const auto once = first_pass.step(agreed, fuzzy >= 1, careful_fill);
-    const auto twice = second_pass.step(once, fuzzy >= 2, careful_fill);
-    const bool filled = until_filled == 0;
-    if (!filled) until_filled = until_filled - 1;
-    if (filled && twice.marks.in_frame) disparity.write(output_beat<Config>(twice));
-    more = raster.advance();
+    const auto confident = unique.step(costs, found, lowest, uniqueness, group);
+    const auto agreed = agreement.step(confident.costs, confident.found, left_right, group);
+    const auto ends = raster.ends_here();
+    // From here on nothing depends on the level: one step a beat.
+    if (group.last()) {
+      const auto once = first_pass.step(agreed, fuzzy >= 1, careful_fill);
+      const auto twice = second_pass.step(once, fuzzy >= 2, careful_fill);
+      const bool filled = until_filled == 0;
+      if (!filled) until_filled = until_filled - 1;
+      if (filled && twice.marks.in_frame) disparity.write(output_beat<Config>(twice));
+      more = raster.advance(level_groups<Config>::count == 1 ? ends : ends_before);
+    }
+    ends_before = ends;
+    group.advance();
   } while (more);
 }
 

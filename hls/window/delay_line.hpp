@@ -16,11 +16,18 @@ class delay_line {
   /// Takes the newest value, returns the one of `Length` steps ago.
   Value step(const Value& newest) {
 #pragma HLS INLINE
+    const Value then = oldest();
+    push(newest);
+    return then;
+  }
+
+  /// A step in two halves, of which the first may come some iterations earlier.
+  const Value& oldest() const { return values_[pointer_]; }
+  void push(const Value& newest) {
+#pragma HLS INLINE
 #pragma HLS DEPENDENCE variable = values_ type = inter distance = Length true
-    const Value oldest = values_[pointer_];
     values_[pointer_] = newest;
     pointer_ = pointer_ == Length - 1 ? pointer_t(0) : pointer_t(pointer_ + 1);
-    return oldest;
   }
 
  private:

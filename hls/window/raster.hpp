@@ -5,7 +5,7 @@
 
 namespace epiline::window {
 
-/// Walks over a frame, one beat an iteration: `rows` rows of real beats, then Schedule::padding_rows more, each row
+/// Walks over a frame, one beat a step: `rows` rows of real beats, then Schedule::padding_rows more, each row
 /// followed by Schedule::padding_beats beats outside the frame; at last Schedule::flush_beats iterations that let the
 /// kernels' delays run out. One flat counter pair instead of two nested loops: the only feedback is "equal, then 0 else
 /// plus 1". A row has at least Schedule::minimum_row_beats iterations, so a RAM addressed by the beat meets the same
@@ -40,12 +40,22 @@ class raster {
   bool in_frame() const { return in_frame_; }
   bool in_flush() const { return in_flush_; }
 
-  /// Goes on to the next iteration; false after the last one.
-  bool advance() {
-    const bool row_ends = in_flush_ ? beat_ == Schedule::flush_beats - 1 : beat_ == last_row_beat_;
-    const bool columns_end = beat_ == last_frame_beat_;
-    const bool more = !(row_ends && in_flush_);
-    if (row_ends) {
+  /// What ends with a beat.
+  struct ends {
+    bool row;
+    bool columns;
+  };
+  ends ends_here() const {
+    return {in_flush_ ? beat_ == Schedule::flush_beats - 1 : beat_ == last_row_beat_, beat_ == last_frame_beat_};
+  }
+
+  /// Goes on to the next beat; false after the last one.
+  bool advance() { return advance(ends_here()); }
+  /// `here`: what ends_here() said of this beat. A beat of several iterations may have asked in an earlier one, which
+  /// leaves less to do between two beats.
+  bool advance(ends here) {
+    const bool more = !(here.row && in_flush_);
+    if (here.row) {
       in_rows_ = in_rows_ && row_ != last_frame_row_;
       if (row_ == last_padding_row_) in_flush_ = true;
       row_ = row_ + 1;
@@ -54,7 +64,7 @@ class raster {
       in_frame_ = in_rows_;
     } else {
       beat_ = beat_ + 1;
-      if (columns_end) {
+      if (here.columns) {
         in_columns_ = false;
         in_frame_ = false;
       }

@@ -14,6 +14,7 @@ template <int Lanes>
 struct config {
   static constexpr int max_width = 40;
   static constexpr int levels = 9;
+  static constexpr int parallel_disparities = all_levels;
   static constexpr int pixels_per_beat = Lanes;
 };
 

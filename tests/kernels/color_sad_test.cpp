@@ -59,10 +59,11 @@ TEST(pixel_taps, repeat_the_first_pixel_left_of_the_row) {
   expect_taps<4>();
 }
 
-template <int Lanes, int Radius>
+template <int Lanes, int Radius, int ParallelDisparities = all_levels>
 struct config {
   static constexpr int max_width = 40;
   static constexpr int levels = 9;
+  static constexpr int parallel_disparities = ParallelDisparities;
   static constexpr int pixels_per_beat = Lanes;
   static constexpr int window_radius = Radius;
 };
@@ -70,7 +71,7 @@ struct config {
 template <class Config>
 class color_sad_of : public testing::Test {};
 using configs = testing::Types<config<1, 3>, config<2, 3>, config<4, 3>, config<1, 1>, config<2, 1>, config<1, 2>,
-                               config<4, 2>, config<2, 0>>;
+                               config<4, 2>, config<2, 0>, config<1, 3, 3>, config<1, 3, 1>, config<1, 2, 9>>;
 TYPED_TEST_SUITE(color_sad_of, configs);
 
 /// Walks over the frame as the top does, with frames of different sizes one after another in one object.
@@ -105,15 +106,20 @@ TYPED_TEST(color_sad_of, equals_brute_force_for_every_candidate) {
             right.range(low + 7, low) = x < width ? pair.right.at(x, row, c) : 7;
           }
         }
-        const auto costs = matcher->step(left, right, at);
-        for (int lane = 0; lane < lanes; ++lane) {
-          const int x = (beat - sad::delay_beats) * lanes + lane;
-          const int y = row - radius;
-          if (x < 0 || x >= width || y < 0) continue;
-          for (int d = 0; d <= std::min(x, TypeParam::levels - 1); ++d) {
-            ASSERT_EQ(costs.at[lane][d], test::window_cost(pair, x, y, d, radius))
-                << "frame " << frame << ' ' << width << 'x' << height << ", x " << x << ", y " << y << ", d " << d;
+        for (int group = 0; group < at.group.count; ++group) {
+          const auto costs = group == 0 ? matcher->step(left, right, at) : matcher->step(99, 99, at);
+          for (int lane = 0; lane < lanes; ++lane) {
+            const int x = (beat - sad::delay_beats) * lanes + lane;
+            const int y = row - radius;
+            if (x < 0 || x >= width || y < 0) continue;
+            for (int i = 0; i < sad::levels; ++i) {
+              const int d = group * sad::levels + i;
+              if (d > x) break;
+              ASSERT_EQ(costs.at[lane][i], test::window_cost(pair, x, y, d, radius))
+                  << "frame " << frame << ' ' << width << 'x' << height << ", x " << x << ", y " << y << ", d " << d;
+            }
           }
+          at.group.advance();
         }
       }
     }

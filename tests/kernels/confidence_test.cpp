@@ -14,10 +14,11 @@
 namespace epiline::kernels {
 namespace {
 
-template <int Lanes, int Levels>
+template <int Lanes, int Levels, int ParallelDisparities = all_levels>
 struct config {
   static constexpr int max_width = 64;
   static constexpr int levels = Levels;
+  static constexpr int parallel_disparities = ParallelDisparities;
   static constexpr int pixels_per_beat = Lanes;
   static constexpr int window_radius = 3;
   static constexpr int uniqueness_delay = 11;
@@ -63,10 +64,13 @@ struct raster_of_costs {
   [[nodiscard]] column at(int beat, int lane) const {
     return beat < beats() ? columns[static_cast<std::size_t>(beat * lanes + lane)] : column{};
   }
-  [[nodiscard]] typename right_winner<Config>::costs_t costs(int beat) const {
+  [[nodiscard]] typename right_winner<Config>::costs_t costs(int beat, int group) const {
     typename right_winner<Config>::costs_t result;
+    constexpr int size = level_groups<Config>::size;
     for (int lane = 0; lane < lanes; ++lane) {
-      for (int d = 0; d < levels; ++d) result.at[lane][d] = at(beat, lane).costs[static_cast<std::size_t>(d)];
+      for (int i = 0; i < size; ++i) {
+        result.at[lane][i] = at(beat, lane).costs[static_cast<std::size_t>(group * size + i)];
+      }
     }
     return result;
   }
@@ -104,15 +108,20 @@ void expect_marks(const beat_marks& marks, int beat) {
 template <class Config>
 class confidence : public testing::Test {};
 using configs = testing::Types<config<1, 1>, config<1, 2>, config<1, 9>, config<1, 80>, config<2, 1>, config<2, 8>,
-                               config<2, 9>, config<2, 128>, config<4, 2>, config<4, 8>, config<4, 13>, config<4, 80>>;
+                               config<2, 9>, config<2, 128>, config<4, 2>, config<4, 8>, config<4, 13>, config<4, 80>,
+                               config<1, 8, 4>, config<1, 9, 3>, config<1, 8, 1>, config<1, 80, 16>>;
 TYPED_TEST_SUITE(confidence, configs);
 
 TYPED_TEST(confidence, right_winner_is_the_first_smallest_of_its_diagonal) {
   const raster_of_costs<TypeParam> raster;
   using chain = right_winner<TypeParam>;
   chain right{};
+  level_group<TypeParam> group;
   for (int beat = 0; beat < raster.beats() + chain::delay_beats; ++beat) {
-    const auto winners = right.step(raster.costs(beat));
+    auto winners = right.step(raster.costs(beat, 0), group);
+    for (group.advance(); !group.first(); group.advance()) {
+      winners = right.step(raster.costs(beat, group.index()), group);
+    }
     for (int lane = 0; lane < chain::lanes; ++lane) {
       const int index = (beat - chain::delay_beats) * chain::lanes + lane;
       if (index < 0 || !raster.columns[static_cast<std::size_t>(index)].in_frame) continue;
@@ -126,10 +135,14 @@ TYPED_TEST(confidence, left_right_check_keeps_what_agrees_within_one_level) {
   using check_t = left_right_check<TypeParam>;
   for (const bool enabled : {true, false}) {
     const auto check = std::make_unique<check_t>();
+    level_group<TypeParam> group;
     int kept = 0;
     int dropped = 0;
     for (int beat = 0; beat < raster.beats() + check_t::delay_beats; ++beat) {
-      const auto checked = check->step(raster.costs(beat), raster.found(beat), enabled);
+      auto checked = check->step(raster.costs(beat, 0), raster.found(beat), enabled, group);
+      for (group.advance(); !group.first(); group.advance()) {
+        checked = check->step(raster.costs(beat, group.index()), raster.found(beat), enabled, group);
+      }
       const int then = beat - check_t::delay_beats;
       if (then < 0) continue;
       expect_marks(checked.marks, then);
@@ -158,6 +171,7 @@ TYPED_TEST(confidence, uniqueness_compares_every_rival_with_the_winner) {
   raster_of_costs<TypeParam> raster;
   using check_t = uniqueness_check<TypeParam>;
   const auto check = std::make_unique<check_t>();
+  level_group<TypeParam> group;
   int dropped = 0;
   std::vector<int> ratios;
   for (int beat = 0; beat < raster.beats() + check_t::delay_beats; ++beat) {
@@ -167,17 +181,28 @@ TYPED_TEST(confidence, uniqueness_compares_every_rival_with_the_winner) {
       const auto column = raster.at(beat, lane);
       lowest[lane] = column.costs[static_cast<std::size_t>(column.winner)];
     }
-    const auto result = check->step(raster.costs(beat), raster.found(beat), lowest, ratios.back());
     const int then = beat - check_t::delay_beats;
+    const auto step = [&] {
+      const auto result =
+          check->step(raster.costs(beat, group.index()), raster.found(beat), lowest, ratios.back(), group);
+      for (int lane = 0; lane < check_t::lanes && then >= 0; ++lane) {
+        for (int i = 0; i < check_t::levels; ++i) {
+          EXPECT_EQ(result.costs.at[lane][i], raster.costs(then, group.index()).at[lane][i]);
+        }
+      }
+      group.advance();
+      return result;
+    };
+    auto result = step();
+    while (!group.first()) result = step();
     if (then < 0) continue;
     expect_marks(result.found.marks, then);
     for (int lane = 0; lane < check_t::lanes; ++lane) {
       const auto column = raster.at(then, lane);
       const int m1 = column.costs[static_cast<std::size_t>(column.winner)];
       bool unique = true;
-      for (int d = 0; d < check_t::levels; ++d) {
+      for (int d = 0; d < TypeParam::levels; ++d) {
         const int cost = column.costs[static_cast<std::size_t>(d)];
-        ASSERT_EQ(result.costs.at[lane][d], cost);
         const bool rival = cost != 65535 && std::abs(d - column.winner) > 1;
         if (rival && 16 * cost < ratios[static_cast<std::size_t>(then)] * m1) unique = false;
       }

@@ -71,6 +71,32 @@ TEST(row_window, replicates_the_first_pixel_of_the_row) {
   expect_row_window<4, replicated_border<9>>(pixel);
 }
 
+/// A window in parts shows, part by part, what one as long as all of them shows at once.
+template <int Length, int Parts, class Border>
+void expect_parts() {
+  row_window<int, 1, Length * Parts, Border> whole{};
+  row_window<int, 1, Length, Border, Parts> in_parts{};
+  for (int step = 0; step < 60; ++step) {
+    const int beat[1] = {1 + step};
+    const bool row_starts = step % 7 == 0;
+    whole.step(beat, row_starts);
+    for (int part = 0; part < Parts; ++part) {
+      in_parts.step(beat, row_starts, part);
+      for (int i = 0; i < Length; ++i) {
+        EXPECT_EQ(in_parts.tap[i], whole.tap[part * Length + i])
+            << "step " << step << ", part " << part << ", tap " << i;
+      }
+    }
+  }
+}
+
+TEST(row_window, shows_its_parts_one_after_another) {
+  expect_parts<4, 3, previous_row_border>();
+  expect_parts<4, 2, replicated_border<3>>();
+  expect_parts<2, 5, replicated_border<3>>();  // the border reaches into the second part
+  expect_parts<1, 5, replicated_border<3>>();
+}
+
 template <int Length>
 void expect_delay() {
   delay_line<ap_uint<8>, Length> delay{};
