@@ -1182,7 +1182,7 @@ void writer::write_outputs() {
           last ? operand(n.operands[1], stage) : fmt::format("{} ? {} : ", predicate, operand(n.operands[1], stage));
     }
     line("  wire {}_push = {};", name, always ? valid(stage) : fmt::format("{} & ({})", valid(stage), pushes));
-    const bool has_block = fifo.depth > 64;
+    const bool has_block = fifo.depth > model_.parameters().distributed_max_words;
     line("  (* ram_style = \"{}\", no_rw_check *)", has_block ? "block" : "distributed");
     line("  reg {}{}_fifo [0:{}];", range_of(port.width), name, fifo.depth - 1);
     line("  reg [{}:0] {}_in, {}_out;", counter - 1, name, name);

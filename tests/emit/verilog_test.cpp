@@ -172,6 +172,16 @@ TEST(emit_verilog, is_the_same_every_time) {
   EXPECT_NE(first.find("module block_matcher ("), std::string::npos);
 }
 
+TEST(emit_verilog, asks_for_no_lut_ram_where_there_is_none) {
+  const graph g = make_block_matcher(6);
+  const auto text_for = [&g](const char* target) {
+    const schedule::delay_model model(target);
+    return emit::emit_verilog(g, model, schedule::make_schedule(g, model, {.period = 20}));
+  };
+  EXPECT_NE(text_for("ecp5").find("\"distributed\""), std::string::npos);  // the output's FIFO, if nothing else
+  EXPECT_EQ(text_for("hx8k").find("\"distributed\""), std::string::npos);
+}
+
 TEST(emit_verilog, keeps_the_heading_in_comments) {
   const schedule::delay_model model("ecp5");
   const graph g = make_counter();
