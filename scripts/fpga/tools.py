@@ -62,9 +62,7 @@ def run_or_fail(command, what, environment=None):
 
 def fingerprint():
     """Changes when the environment has to be made anew."""
-    digest = hashlib.sha256(requirements.read_bytes())
-    digest.update(pathlib.Path(__file__).read_bytes())
-    return digest.hexdigest()
+    return hashlib.sha256(requirements.read_bytes() + repr((str(root), wrappers)).encode()).hexdigest()
 
 
 def write_wrappers(folder):
@@ -131,6 +129,13 @@ def debian_version(program, package, arguments=("--version",)):
         raise flow_error(f"'{program}' is not installed (Debian package {package}; scripts/setup.sh installs what is needed)")
     ended = subprocess.run([program, *arguments], capture_output=True, text=True, check=False)
     return last_line(ended.stderr + ended.stdout)
+
+
+def debian_package_version(program, package):
+    """The version of the Debian package that a program without a version option comes from."""
+    if shutil.which(program) is None:
+        raise flow_error(f"'{program}' is not installed (Debian package {package}; scripts/setup.sh installs what is needed)")
+    return run_or_fail(["dpkg-query", "--show", "--showformat=${Version}", package], f"cannot ask for the version of {package}")
 
 
 if __name__ == "__main__":  # for other scripts: prints the folder of the checked tools
