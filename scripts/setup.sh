@@ -15,8 +15,9 @@ packages=(
   # libraries
   liblemon-dev libopencv-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libfmt-dev libgtest-dev libgmock-dev
   libbenchmark-dev
-  # hardware tools
+  # hardware tools; those of scripts/fpga.sh that are not pinned packages of PyPI, which python3-venv is for
   verilator yosys iverilog
+  nextpnr-ice40 fpga-icestorm openfpgaloader python3-venv
   # scripts (python3: the standard library only), and the check of the sources' format, which is one of the tests
   python3 ca-certificates clang-format-19
 )

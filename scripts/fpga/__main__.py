@@ -197,9 +197,10 @@ class flow:
 
     def synthesize(self):
         """Yosys, by the one script that does it."""
-        script = root / "scripts" / "synthesize.sh"
-        named = set(re.findall(r"\bscripts/[\w.]+", script.read_text(encoding="utf-8")))
-        flow_files = sorted(root / name for name in named if (root / name).is_file())
+        # The script, what it runs, and how it maps cells.
+        scripts = root / "scripts"
+        named = re.findall(r"\bscripts/(\w+\.py)", (scripts / "synthesize.sh").read_text(encoding="utf-8"))
+        flow_files = [scripts / "synthesize.sh", *(scripts / name for name in sorted(set(named))), *sorted(scripts.glob("*.v"))]
         key = digest(self.module, self.wanted.device.family, self.versions["pyosys"], os.environ.get("YOSYS_OPTIONS", ""),
                      *flow_files, *self.verilog)
         place = self.store.kept("synthesis", key)
@@ -397,6 +398,17 @@ class flow:
                              f"for a longer --clock ({1000 / text['fmax_mhz']['median']:.2f} ns is what the median seed has)")
 
 
+def without_output(arguments):
+    """The command line that repeats the figures, wherever they are to go."""
+    kept, words = [], iter(arguments)
+    for word in words:
+        if word in ("-o", "--output"):
+            next(words, None)
+        else:
+            kept.append(word)
+    return shlex.join(["scripts/fpga.sh", *kept])
+
+
 def interrupted(_signal, _frame):
     raise KeyboardInterrupt
 
@@ -410,8 +422,7 @@ def main(arguments):
         wanted = plan(options, caller)
         if options.check_arguments:
             return 0
-        flow(wanted, build if build.is_absolute() else caller / build, shlex.join(["scripts/fpga.sh", *arguments]),
-             progress()).run()
+        flow(wanted, build if build.is_absolute() else caller / build, without_output(arguments), progress()).run()
     except flow_error as error:
         print(f"fpga.sh: error: {error}", file=sys.stderr)
         return 1

