@@ -40,8 +40,8 @@ done
 [ ${#positional[@]} -ge 2 ] && [ -n "$folder" ] ||
   fail "usage: synthesize.sh VERILOG... TOP -o FOLDER [--target ecp5|hx8k]"
 case $target in
-  ecp5) synthesis=synth_ecp5 ;;
-  hx8k) synthesis='synth_ice40 -device hx' ;;
+  ecp5) family=ecp5 synthesis=synth_ecp5 ;;
+  hx8k) family=ice40 synthesis='synth_ice40 -device hx' ;;
   *) fail "unknown target '$target' (known: ecp5, hx8k)" ;;
 esac
 
@@ -75,9 +75,16 @@ if [ "$target" = ecp5 ] && grep -q '^module epiline_add_or_subtract' "${sources[
     hierarchy -top $top
     techmap -map \"$PWD/scripts/ecp5_operators.v\""
 fi
+# Copies of flip-flops stay black boxes to the end: Yosys would make one of them.
+copies='' map_copies=''
+if grep -q '^module epiline_copy' "${sources[@]}"; then
+  copies='blackbox epiline_copy'
+  map_copies="techmap -map \"$PWD/scripts/${family}_copies.v\""
+fi
 # Yosys runs inside the folder: it takes no quotes around the names of its output files.
 if ! (cd "$folder" && "$yosys" -Q -T -q -l yosys.log -p "
   $read_sources
+  $copies
   $operators
   $synthesis -run begin:map_ram
   tee -o early_check.txt check
@@ -86,11 +93,12 @@ if ! (cd "$folder" && "$yosys" -Q -T -q -l yosys.log -p "
   $synthesis -run map_ram:map_ffram
   tee -o lost_memories.txt dump t:\$mem_v2
   $synthesis -run map_ffram:json -json $top.json
+  $map_copies
+  clean
   check -assert
   select -assert-none t:\$_DLATCH* t:\$dlatch %u
-  tee -q -o statistics.json stat -json
+  delete */t:\$scopeinfo
   write_json $top.json
-  write_verilog -noattr -simple-lhs ${top}_netlist.v
 " >yosys.out 2>&1); then
   grep -h 'ERROR' "$folder/yosys.out" "$folder/yosys.log" | sort -u | head -5 >&2 || true
   fail "Yosys failed; its log is $folder/yosys.log"
@@ -98,4 +106,10 @@ fi
 if loop=$(grep -m1 -A3 'found logic loop' "$folder/early_check.txt"); then
   fail "the Verilog has a combinational loop: $loop"
 fi
+if [ "$family" = ecp5 ]; then python3 scripts/ram_output_registers.py "$folder/$top.json"; fi
+(cd "$folder" && "$yosys" -Q -T -q -l yosys_netlist.log -p "
+  read_json $top.json
+  tee -q -o statistics.json stat -json
+  write_verilog -noattr -simple-lhs ${top}_netlist.v
+" >>yosys.out 2>&1) || fail "Yosys cannot read its own netlist; its log is $folder/yosys_netlist.log"
 python3 scripts/netlist_resources.py "$folder" "$top" "$target" "${sources[@]}"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <map>
 #include <string>
 #include <string_view>
@@ -149,7 +150,75 @@ void plan_waits(const graph& g, const schedule::delay_model& model, const schedu
   for (const delay_line& line : p.lines) p.copy_bits += line.width;
 }
 
+/// Divides readers, in their order, among as few flip-flops as `most` inputs for each need.
+copies divide_readers(std::vector<std::pair<schedule::reader, double>>& readers, unsigned most) {
+  copies divided;
+  divided.first_reader.push_back(0);
+  double total = 0;
+  for (const auto& [by, inputs] : readers) total += inputs;
+  const double count = std::ceil(total / most);
+  if (most == 0 || count <= 1) return divided;
+  std::sort(readers.begin(), readers.end());
+  double before = 0;
+  for (const auto& [by, inputs] : readers) {
+    if (before >= static_cast<double>(divided.count()) * total / count && by > divided.first_reader.back()) {
+      divided.first_reader.push_back(by);
+    }
+    before += inputs;
+  }
+  return divided;
+}
+
+/// Copies of flip-flops with many readers. The stage before feeds every copy, and has copies for that where needed.
+void plan_copies(const graph& g, const schedule::delay_model& model, const schedule::result& s, plan& p) {
+  const unsigned most = model.parameters().most_readers;
+  constexpr unsigned widest = 64;  // wider values are parts side by side, each with few readers
+  using readers = std::vector<std::pair<schedule::reader, double>>;
+  std::map<std::pair<node_id, int>, readers> of_value;
+  const auto count = static_cast<schedule::reader>(g.nodes.size());
+  for (const schedule::load& l : schedule::find_loads(g, model)) {
+    const int stage = l.by < count ? s.stage[l.by] : s.register_update[l.by - count];
+    if (s.stage[l.value] == settled || stage == settled || stage <= s.available[l.value]) continue;
+    if (g.nodes[l.value].width <= widest) of_value[{l.value, stage}].emplace_back(l.by, l.inputs);
+  }
+  for (node_id id = 0; id < count; ++id) {
+    if (g.nodes[id].width > widest) continue;
+    for (auto step = p.waits[id].rbegin(); step != p.waits[id].rend(); ++step) {
+      if (step->line >= 0) continue;
+      for (int stage = step->to; stage > step->from; --stage) {
+        readers& here = of_value[{id, stage}];
+        const copies divided = divide_readers(here, most);
+        if (divided.count() == 1) continue;
+        if (stage - 1 > s.available[id]) {
+          for (const schedule::reader by : divided.first_reader) of_value[{id, stage - 1}].emplace_back(by, 1);
+        }
+        p.copy_bits += (divided.count() - 1) * g.nodes[id].width;
+        p.value_copies[{id, stage}] = divided;
+      }
+    }
+  }
+  // Valid bits enable the state.
+  std::vector<readers> of_valid(p.last_valid + 1);
+  for (dataflow::register_id r = 0; r < g.registers.size(); ++r) {
+    of_valid[s.register_update[r]].emplace_back(count + r, g.registers[r].width);
+  }
+  p.valid_copies.assign(p.last_valid + 1, copies{{0}});
+  p.valid_bits = p.last_valid;
+  for (int stage = p.last_valid; stage >= 1; --stage) {
+    copies& divided = p.valid_copies[stage];
+    divided = divide_readers(of_valid[stage], most);
+    p.valid_bits += divided.count() - 1;
+    if (divided.count() == 1 || stage == 1) continue;
+    for (const schedule::reader by : divided.first_reader) of_valid[stage - 1].emplace_back(by, 1);
+  }
+}
+
 }  // namespace
+
+std::size_t copies::of(schedule::reader by) const {
+  const auto next = std::upper_bound(first_reader.begin(), first_reader.end(), by);
+  return next == first_reader.begin() ? 0 : static_cast<std::size_t>(next - first_reader.begin()) - 1;
+}
 
 plan make_plan(const graph& g, const schedule::delay_model& model, const schedule::result& s,
                const delay_line_limits& limits) {
@@ -176,6 +245,7 @@ plan make_plan(const graph& g, const schedule::delay_model& model, const schedul
     p.last_valid = std::max(p.last_valid, s.register_update[r]);
     if (s.register_stage[r] == settled) p.settled_bits += g.registers[r].width;
   }
+  plan_copies(g, model, s, p);
   return p;
 }
 

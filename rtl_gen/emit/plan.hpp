@@ -3,9 +3,12 @@
 // RAMs. Shared by the Verilog and the report, so that the report counts what is emitted.
 
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "dataflow/graph.hpp"
+#include "schedule/fan_out.hpp"
 #include "schedule/schedule.hpp"
 
 namespace epiline::emit {
@@ -59,13 +62,26 @@ struct memory_plan {
   bool never_meets = true;       // a read never looks at the word written in the same clock
 };
 
+/// Flip-flops that hold the same bits, each for some of the readers: one that drives too many is slow, and far from most
+/// of them. Copy 0 is the flip-flop itself.
+struct copies {
+  std::vector<schedule::reader> first_reader;  // per copy: it serves the readers from this one to the next copy's
+
+  [[nodiscard]] std::size_t count() const { return first_reader.size(); }
+  /// The copy that serves `by`.
+  [[nodiscard]] std::size_t of(schedule::reader by) const;
+};
+
 struct plan {
   std::vector<std::vector<wait_step>> waits;  // per node
   std::vector<delay_line> lines;
   std::vector<output_fifo> fifos;
   std::vector<memory_plan> memories;
+  std::map<std::pair<dataflow::node_id, int>, copies> value_copies;  // of what waits in flip-flops, by value and stage
+  std::vector<copies> valid_copies;                                  // per stage; stage 0 has none
   int last_valid = 1;              // the last stage that needs its valid bit
-  std::uint64_t copy_bits = 0;     // flip-flops of waiting values
+  std::uint64_t copy_bits = 0;     // flip-flops of waiting values, with their copies
+  std::uint64_t valid_bits = 0;    // flip-flops of valid bits, with their copies
   std::uint64_t settled_bits = 0;  // flip-flops of settled values and of patient registers' next values
 };
 

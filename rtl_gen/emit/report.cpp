@@ -160,8 +160,8 @@ json make_report(const graph& g, const schedule::delay_model& model, const sched
       {"settled_bits", p.settled_bits},
       {"port_bits", input_bits},
       {"ram_output_bits", word_bits},
-      {"valid_bits", p.last_valid},
-      {"total_bits", state_bits + p.copy_bits + p.settled_bits + input_bits + word_bits + p.last_valid}};
+      {"valid_bits", p.valid_bits},
+      {"total_bits", state_bits + p.copy_bits + p.settled_bits + input_bits + word_bits + p.valid_bits}};
 
   json memories = json::array();
   for (std::size_t m = 0; m < g.memories.size(); ++m) {

@@ -107,6 +107,31 @@ endmodule
 /* verilator lint_on DECLFILENAME */
 `endif)";
 
+/// A module of its own, because synthesis makes one flip-flop of several that hold the same bits unless each is one it
+/// does not look into until the end (scripts/ecp5_operators.v).
+constexpr const char* copy_module = R"(
+`ifndef EPILINE_COPY
+`define EPILINE_COPY
+/* verilator lint_off DECLFILENAME */
+module epiline_copy #(
+  parameter WIDTH = 1
+) (
+  input  wire             clk,
+  input  wire             clear,
+  input  wire [WIDTH-1:0] d,
+  output wire [WIDTH-1:0] q
+);
+  (* keep = "true", syn_preserve = 1, dont_merge *)
+  reg [WIDTH-1:0] bits;
+  always @(posedge clk) begin
+    if (clear) bits <= {WIDTH{1'b0}};
+    else bits <= d;
+  end
+  assign q = bits;
+endmodule
+/* verilator lint_on DECLFILENAME */
+`endif)";
+
 class writer {
  public:
   writer(const graph& g, const schedule::delay_model& model, const schedule::result& s, const verilog_options& options)
@@ -140,7 +165,13 @@ class writer {
   text_of_value expression(node_id id) const;
   std::string part(const text_of_value& v, node_id source, unsigned low, unsigned width) const;
   std::string index(node_id address, int stage, std::uint64_t words) const;
-  std::string valid(int stage) const { return stage == 0 ? "fire" : fmt::format("valid[{}]", stage); }
+  std::string valid(int stage) const;
+  /// The name of the flip-flops `name`, of which there are `all`, that the present reader looks at.
+  std::string copy_of(std::string name, const copies& all) const {
+    const std::size_t copy = all.of(reader_);
+    return copy == 0 ? name : copy_name(name, copy);
+  }
+  static std::string copy_name(std::string_view base, std::size_t copy) { return fmt::format("{}_copy{}", base, copy); }
   std::string comment(dataflow::source_location where) const;
   bool is_always(node_id id) const {
     return g_.nodes[id].kind == operation::constant && g_.nodes[id].value.isAllOnes();
@@ -163,6 +194,7 @@ class writer {
   void write_contents(const std::string& name, const std::vector<llvm::APInt>& values);
   void write_stage(int stage);
   void write_copies(int stage);
+  void write_copy(const std::string& name, unsigned width, const std::string& clear, const std::string& source);
   void write_logic(int stage);
   void write_issue();
   void write_state(int stage);
@@ -190,6 +222,8 @@ class writer {
   std::map<std::string, unsigned, std::less<>> numbers_;
   std::vector<std::string> node_name_, register_name_, memory_name_, table_name_, port_name_, line_name_;
   bool adds_or_subtracts_ = false;  // the module of that name is needed
+  bool has_copies_ = false;         // likewise
+  schedule::reader reader_ = 0;     // whose text is being written: decides which copy of a flip-flop it names
   std::vector<char> inlined_;
   std::vector<std::string> pending_name_;       // patient registers' next value
   std::vector<std::vector<node_id>> nodes_at_;  // per stage
@@ -211,8 +245,9 @@ std::string writer::fresh(std::string_view wanted) {
   if (base.empty() || std::isdigit(static_cast<unsigned char>(base[0]))) base = "v" + base;
   // Names that look like a pipeline copy ("x_s3") or an internal number would be misread.
   const std::size_t mark = base.find_last_not_of("0123456789");
-  if (mark != std::string::npos && mark + 1 < base.size() && base[mark] == 's' && mark > 0 && base[mark - 1] == '_') {
-    base += "_v";
+  if (mark != std::string::npos && mark + 1 < base.size()) {
+    const std::string_view stem = std::string_view(base).substr(0, mark + 1);
+    if (stem.ends_with("_s") || stem.ends_with("_copy")) base += "_v";
   }
   std::string name = base;
   if (is_keyword(name) || taken_.contains(name)) {
@@ -432,7 +467,15 @@ writer::text_of_value writer::at(node_id id, int stage) const {
     if (inlined_[id]) return expression(id);
     return {node_name_[id], true, true};
   }
-  return {stage_name(node_name_[id], stage), true, true};
+  const auto all = plan_.value_copies.find({id, stage});
+  const std::string name = stage_name(node_name_[id], stage);
+  return {all == plan_.value_copies.end() ? name : copy_of(name, all->second), true, true};
+}
+
+std::string writer::valid(int stage) const {
+  if (stage == 0) return "fire";
+  const std::size_t copy = plan_.valid_copies[stage].of(reader_);
+  return copy == 0 ? fmt::format("valid[{}]", stage) : copy_name(fmt::format("valid_s{}", stage), copy);
 }
 
 std::string writer::operand(node_id id, int stage) const {
@@ -812,9 +855,22 @@ void writer::write_copies(int stage) {
       if (step.line >= 0 || stage <= step.from || stage > step.to) continue;
       const std::string name = stage_name(node_name_[id], stage);
       line("  reg {}{};", range_of(g_.nodes[id].width), name);
+      reader_ = 0;
       moves.emplace_back(name, whole(id, stage - 1));
+      const auto all = plan_.value_copies.find({id, stage});
+      if (all == plan_.value_copies.end()) continue;
+      for (std::size_t copy = 1; copy < all->second.count(); ++copy) {
+        reader_ = all->second.first_reader[copy];
+        write_copy(copy_name(name, copy), g_.nodes[id].width, "1'b0", whole(id, stage - 1));
+      }
     }
   }
+  for (std::size_t copy = 1; copy < plan_.valid_copies[std::min(stage, plan_.last_valid)].count(); ++copy) {
+    if (stage > plan_.last_valid) break;
+    reader_ = plan_.valid_copies[stage].first_reader[copy];
+    write_copy(copy_name(fmt::format("valid_s{}", stage), copy), 1, "rst", valid(stage - 1));
+  }
+  reader_ = 0;
   for (std::size_t i = 0; i < plan_.lines.size(); ++i) {
     const delay_line& l = plan_.lines[i];
     if (l.to != stage) continue;
@@ -870,7 +926,15 @@ void writer::write_copies(int stage) {
   line("  end");
 }
 
+void writer::write_copy(const std::string& name, unsigned width, const std::string& clear, const std::string& source) {
+  has_copies_ = true;
+  line("  wire {}{};", range_of(width), name);
+  line("  epiline_copy #(.WIDTH({})) {}_register (.clk(clk), .clear({}), .d({}), .q({}));", width, name, clear, source,
+       name);
+}
+
 void writer::write_node(node_id id) {
+  reader_ = id;
   const node& n = g_.nodes[id];
   const int stage = s_.stage[id];
   const std::string& name = node_name_[id];
@@ -951,6 +1015,7 @@ void writer::write_logic(int stage) {
     for (const read_port& port : plan_.memories[m].reads) {
       if (port.stage != stage) continue;
       const std::string& name = node_name_[port.reads[0]];
+      reader_ = port.reads[0];
       line("  reg {}{}_q;{}", range_of(g_.memories[m].width), name, comment(g_.nodes[port.reads[0]].where));
       line("  always @(posedge clk) {}_q <= {}[{}];", name, memory_name_[m],
            index(port.address, stage, g_.memories[m].words));
@@ -1018,13 +1083,20 @@ void writer::write_issue() {
 void writer::write_state(int stage) {
   const std::vector<register_id>& here = updates_at_[stage];
   if (here.empty()) return;
-  std::vector<std::pair<node_id, std::vector<register_id>>> groups;  // by enable, in order of appearance
-  std::map<node_id, std::size_t> group_of;
+  struct group {  // registers that the same signals enable
+    std::string valid, enable;
+    std::vector<register_id> registers;
+  };
+  std::vector<group> groups;  // in order of appearance
+  std::map<std::pair<std::string, std::string>, std::size_t> group_of;
+  const auto read_by = [&](register_id r) { reader_ = static_cast<schedule::reader>(g_.nodes.size() + r); };
   for (const register_id r : here) {
-    const node_id enable = g_.registers[r].enable;
-    const auto [found, fresh_group] = group_of.try_emplace(is_always(enable) ? none : enable, groups.size());
-    if (fresh_group) groups.emplace_back(is_always(enable) ? none : enable, std::vector<register_id>());
-    groups[found->second].second.push_back(r);
+    read_by(r);
+    const node_id condition = g_.registers[r].enable;
+    const std::string enable = is_always(condition) ? std::string() : whole(condition, stage);
+    const auto [found, fresh_group] = group_of.try_emplace({valid(stage), enable}, groups.size());
+    if (fresh_group) groups.push_back({valid(stage), enable, {}});
+    groups[found->second].registers.push_back(r);
   }
   const auto target = [&](register_id r) {
     return s_.register_stage[r] == settled ? pending_name_[r] : register_name_[r];
@@ -1033,17 +1105,20 @@ void writer::write_state(int stage) {
     if (s_.register_stage[r] == settled) line("  reg {}{};", range_of(g_.registers[r].width), pending_name_[r]);
   }
   line("  always @(posedge clk) begin");
-  line("    if ({}) begin", valid(stage));
-  for (const auto& [enable, registers] : groups) {
-    const bool conditional = enable != none;
-    if (conditional) line("      if ({}) begin", whole(enable, stage));
-    for (const register_id r : registers) {
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const group& now = groups[i];
+    if (i == 0 || groups[i - 1].valid != now.valid) line("    if ({}) begin", now.valid);
+    const bool conditional = !now.enable.empty();
+    if (conditional) line("      if ({}) begin", now.enable);
+    for (const register_id r : now.registers) {
+      read_by(r);
       line("      {}{} <= {};{}", conditional ? "  " : "", target(r), whole(g_.registers[r].next, stage),
            comment(g_.registers[r].where));
     }
     if (conditional) line("      end");
+    if (i + 1 == groups.size() || groups[i + 1].valid != now.valid) line("    end");
   }
-  line("    end");
+  reader_ = 0;
   std::string resets;
   for (const register_id r : here) {
     if (!g_.registers[r].initial) continue;
@@ -1063,6 +1138,7 @@ void writer::write_memory_writes(int stage) {
     if (p.writes.empty() || s_.stage[p.writes[0]] != stage) continue;
     const std::string& name = memory_name_[m];
     const std::uint64_t words = g_.memories[m].words;
+    reader_ = p.writes[0];
     const auto enable = [&](node_id id) {
       const node_id e = g_.nodes[id].operands[2];
       return is_always(e) ? valid(stage) : fmt::format("{} & {}", valid(stage), operand(e, stage));
@@ -1289,6 +1365,7 @@ std::string writer::write() {
   line("\nendmodule\n");
   if (options_.axi_lite) line("{}", emit_axi_lite_slave(make_register_map(g_)));
   if (adds_or_subtracts_) line("{}", add_or_subtract_module);
+  if (has_copies_) line("{}", copy_module);
   line("`default_nettype wire");
   return std::move(out_);
 }

@@ -8,7 +8,8 @@ namespace epiline::passes {
 /// - Divisions and remainders of two variables: one subtraction and one selection a quotient bit (restoring division),
 ///   as many steps as the dividend has bits.
 /// - Products whose factors are wider than a multiplier of the target, `multiplier_width` bits with sign: a product for
-///   every pair of pieces of the factors, and their sum. 0: the target has no multipliers, products stay.
+///   every pair of pieces of the factors, and their sum. 0: the target has no multipliers, such products stay.
+/// - Products with a factor of a few bits: a sum of as many multiples of the other factor.
 ///
 /// What is known about widths (narrow_widths.hpp) should be there already, divisions by constants should be gone
 /// (reduce_strength.hpp).

@@ -29,6 +29,10 @@ constexpr delay_parameters ecp5{.launch = 1.22,
                                 .distributed_max_words = 64,
                                 .memory_setup = 0.30,
                                 .issue = 1.60,
+                                .calm_share = 0.85,
+                                .spread_doubling = 0.45,
+                                .spread_from = 6,
+                                .most_readers = 24,
                                 .block_bits = 18432,
                                 .block_max_width = 36};
 
@@ -44,6 +48,10 @@ constexpr delay_parameters hx8k{.launch = 1.40,
                                 .distributed_max_words = 0,
                                 .memory_setup = 0.30,
                                 .issue = 2.15,
+                                .calm_share = 0.85,
+                                .spread_doubling = 0.60,
+                                .spread_from = 6,
+                                .most_readers = 24,
                                 .block_bits = 4096,
                                 .block_max_width = 16};
 
@@ -59,6 +67,10 @@ constexpr delay_parameters generic{.launch = 1.00,
                                    .distributed_max_words = 64,
                                    .memory_setup = 0.30,
                                    .issue = 1.50,
+                                   .calm_share = 0.85,
+                                   .spread_doubling = 0.45,
+                                   .spread_from = 6,
+                                   .most_readers = 24,
                                    .block_bits = 18432,
                                    .block_max_width = 36};
 

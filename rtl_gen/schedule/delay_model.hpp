@@ -33,6 +33,11 @@ struct delay_parameters {
   double memory_setup = 0;             // set-up of a RAM's address, data and enable inputs
   double issue = 0;         // from a read's predicate through the decision to issue, one LUT that also takes in the
                             // predicate's last gate, to the clock enables it drives
+  double calm_share = 1;    // of the period, for chains outside recurrences: a register there costs no throughput, and
+                            // wires come out longer than estimated somewhere in every placement
+  double spread_doubling = 0;  // what every doubling of a value's readers adds to its wire, ...
+  double spread_from = 1;      // ... from so many on
+  unsigned most_readers = 0;   // inputs that one flip-flop drives: from there on it has copies
   unsigned block_bits = 0;  // of one block RAM
   unsigned block_max_width = 0;
 };

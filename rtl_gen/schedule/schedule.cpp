@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "schedule/difference_program.hpp"
+#include "schedule/fan_out.hpp"
 
 namespace epiline::schedule {
 
@@ -155,7 +156,9 @@ class problem {
 
   /// Chains: at `period`, a chain that starts with node u may not reach v in the same stage. Returns `none`, or the
   /// node that alone takes longer than the period.
-  node_id add_chains(double period, std::vector<constraint>& constraints) const;
+  /// Chains between different `component`s, which no recurrence holds together, get `calm` only instead of `period`.
+  node_id add_chains(double period, double calm, const std::vector<std::uint32_t>& component,
+                     std::vector<constraint>& constraints) const;
 
   /// All rules but those of the period. `apart`: a memory's writes come a stage after its reads where possible.
   void add_order(int interval, bool apart, std::vector<constraint>& constraints) const;
@@ -164,6 +167,7 @@ class problem {
   double trace(node_id from, variable to, std::vector<chain_link>& chain) const;
 
   [[nodiscard]] double node_delay(node_id id) const { return delay_[id]; }
+  [[nodiscard]] double node_spread(node_id id) const { return spread_[id]; }
 
  private:
   void collect_accesses();
@@ -179,6 +183,7 @@ class problem {
   std::uint32_t count_ = 0;
   std::vector<memory_accesses> accesses_;
   std::vector<double> delay_;
+  std::vector<double> spread_;
   std::vector<int> latency_;
   std::vector<std::vector<way>> ways_;  // per node
   std::vector<char> in_issue_cone_;     // per node
@@ -195,6 +200,7 @@ void problem::collect_accesses() {
 
 void problem::collect_ways() {
   delay_.resize(g_.nodes.size());
+  spread_ = find_spread(g_, model_);
   latency_.resize(g_.nodes.size());
   ways_.resize(g_.nodes.size());
   for (node_id id = 0; id < g_.nodes.size(); ++id) {
@@ -203,19 +209,24 @@ void problem::collect_ways() {
     if (settled_[id]) continue;
     const node& n = g_.nodes[id];
     for (std::size_t i = 0; i < n.operands.size(); ++i) {
-      if (!settled_[n.operands[i]]) ways_[n.operands[i]].push_back({of_node(id), model_.entry(g_, id, i)});
+      const node_id operand = n.operands[i];
+      if (!settled_[operand]) ways_[operand].push_back({of_node(id), spread_[operand] + model_.entry(g_, id, i)});
     }
     if (n.kind == operation::read && !settled_[n.operands[0]]) {
-      ways_[n.operands[0]].push_back({0, model_.parameters().issue});
+      ways_[n.operands[0]].push_back({0, spread_[n.operands[0]] + model_.parameters().issue});
     }
   }
   for (register_id r = 0; r < g_.registers.size(); ++r) {
     const dataflow::register_state& state = g_.registers[r];
-    if (!settled_[state.next]) ways_[state.next].push_back({of_update(r), 0});
-    if (!settled_[state.enable]) ways_[state.enable].push_back({of_update(r), model_.enable_entry()});
+    if (!settled_[state.next]) ways_[state.next].push_back({of_update(r), spread_[state.next]});
+    if (!settled_[state.enable]) {
+      ways_[state.enable].push_back({of_update(r), spread_[state.enable] + model_.enable_entry()});
+    }
   }
   // The patient mark only starts the hold: it is gated with the issue, which does not wait for it.
-  if (g_.patient != none && !settled_[g_.patient]) ways_[g_.patient].push_back({0, model_.enable_entry()});
+  if (g_.patient != none && !settled_[g_.patient]) {
+    ways_[g_.patient].push_back({0, spread_[g_.patient] + model_.enable_entry()});
+  }
 }
 
 void problem::find_issue_cone() {
@@ -319,15 +330,22 @@ void problem::add_order(int interval, bool apart, std::vector<constraint>& const
   }
 }
 
-node_id problem::add_chains(double period, std::vector<constraint>& constraints) const {
-  const double budget = period - model_.parameters().launch - model_.parameters().capture + tolerance;
+node_id problem::add_chains(double period, double calm, const std::vector<std::uint32_t>& component,
+                            std::vector<constraint>& constraints) const {
+  const double around = model_.parameters().launch + model_.parameters().capture - tolerance;
+  const double full_budget = period - around;
+  // Whoever is on the way between two of one component is of that component: what a chain's part may not do, the whole
+  // chain may not do either.
+  const auto budget_of = [&](node_id start, variable end) {
+    return component[of_node(start)] == component[end] ? full_budget : calm - around;
+  };
   // Backwards, so that what a node's successors already forbid need not be forbidden again.
   std::vector<std::vector<variable>> forbidden(g_.nodes.size());
   std::vector<double> arrival(count_, -1);
   std::vector<std::uint32_t> implied(count_, none);
   for (node_id start = static_cast<node_id>(g_.nodes.size()); start-- > 0;) {
     if (settled_[start]) continue;
-    if (delay_[start] > budget) return start;
+    if (delay_[start] > full_budget) return start;
     if (latency_[start] > 0) continue;
     const bool wire = is_wire(g_, start);
     std::vector<variable>& mine = forbidden[start];
@@ -368,7 +386,7 @@ node_id problem::add_chains(double period, std::vector<constraint>& constraints)
         if (!wire) mine.push_back(v);
         continue;
       }
-      if (arrival[v] > budget) {
+      if (arrival[v] > budget_of(start, v)) {
         forbid(v);
         continue;
       }
@@ -376,7 +394,7 @@ node_id problem::add_chains(double period, std::vector<constraint>& constraints)
       if (target == none || latency_[target] > 0) continue;
       for (const way& w : ways_[target]) reach(w, arrival[v]);
     }
-    if (arrival[0] > budget && implied[0] != start) forbid(0);
+    if (arrival[0] > budget_of(start, 0) && implied[0] != start) forbid(0);
     for (const variable v : touched) arrival[v] = -1;
   }
   return none;
@@ -579,11 +597,12 @@ struct timing {
 timing analyse(const graph& g, const delay_model& model, const result& s) {
   timing t;
   const delay_parameters& p = model.parameters();
+  const std::vector<double> spread = find_spread(g, model);
   t.arrival.assign(g.nodes.size(), p.launch);
   t.previous.assign(g.nodes.size(), none);
   const auto finish = [&](node_id at, int stage, double entry) {
     const bool chained = s.stage[at] != settled && s.stage[at] == stage && s.available[at] == stage;
-    const double total = (chained ? t.arrival[at] : p.launch) + entry + p.capture;
+    const double total = (chained ? t.arrival[at] + spread[at] : p.launch) + entry + p.capture;
     if (total > t.worst) {
       t.worst = total;
       t.worst_end = at;
@@ -598,7 +617,8 @@ timing analyse(const graph& g, const delay_model& model, const result& s) {
       const bool chained =
           s.stage[id] != settled && s.available[operand] == s.stage[id] && s.stage[operand] == s.stage[id];
       const bool wired = s.stage[id] == settled && s.stage[operand] == settled && !is_settled_register(g, s, operand);
-      const double at = (chained || wired ? t.arrival[operand] : p.launch) + model.entry(g, id, i);
+      const double from = chained || wired ? t.arrival[operand] + (chained ? spread[operand] : 0) : p.launch;
+      const double at = from + model.entry(g, id, i);
       if (at > in || (at >= in && t.previous[id] == none && chained)) {
         in = at;
         t.previous[id] = chained ? operand : none;
@@ -653,7 +673,9 @@ attempt try_once(const graph& g, const delay_model& model, const problem& p, dou
     }
   }
   p.add_order(interval, apart, a.system.constraints);
-  a.too_slow = p.add_chains(period, a.system.constraints);
+  a.system.build(p.count());
+  const std::vector<std::uint32_t> component = a.system.component;
+  a.too_slow = p.add_chains(period, period * model.parameters().calm_share, component, a.system.constraints);
   if (a.too_slow != none) return a;
   a.system.build(p.count());
   a.stage = a.system.earliest(p.count(), a.cycle);
@@ -875,7 +897,7 @@ std::vector<recurrence_delay> recurrences(const graph& g, const delay_model& mod
     for (std::size_t i = 0; i < n.operands.size(); ++i) {
       const node_id operand = n.operands[i];
       if (s.stage[operand] == settled || at[operand] < 0 || component(operand) != component(id)) continue;
-      at[id] = std::max(at[id], at[operand] + model.entry(g, id, i) + p.node_delay(id));
+      at[id] = std::max(at[id], at[operand] + p.node_spread(operand) + model.entry(g, id, i) + p.node_delay(id));
     }
   }
   std::vector<recurrence_delay> all;
@@ -884,7 +906,7 @@ std::vector<recurrence_delay> recurrences(const graph& g, const delay_model& mod
     double delay = -1;
     const auto end = [&](node_id id, double entry) {
       if (s.stage[id] == settled || at[id] < 0 || g.nodes[id].kind == operation::register_value) return;
-      if (component(id) == system.component[p.of_register(r)]) delay = std::max(delay, at[id] + entry);
+      if (component(id) == system.component[p.of_register(r)]) delay = std::max(delay, at[id] + p.node_spread(id) + entry);
     };
     end(g.registers[r].next, 0);
     end(g.registers[r].enable, model.enable_entry());

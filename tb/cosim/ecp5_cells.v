@@ -215,8 +215,8 @@ module DP16KD (
   };
   initial begin
     for (row = 0; row < 1024; row = row + 1) rows[row] = initial_rows[20*row+:18];
-    if (REGMODE_A != "NOREG" || REGMODE_B != "NOREG" || CLKAMUX != "CLKA" || CLKBMUX != "CLKB") begin
-      $display("DP16KD: output registers and inverted clocks are not modelled");
+    if (CLKAMUX != "CLKA" || CLKBMUX != "CLKB") begin
+      $display("DP16KD: inverted clocks are not modelled");
       $finish;
     end
   end
@@ -322,11 +322,28 @@ module DP16KD (
     end
   end
 
-  wire [17:0] out_a = DATA_WIDTH_B == 36 ? read_low : read_a;
+  // Output registers (REGMODE "OUTREG"): one more clock. A 36-bit word leaves by both ports, clocked by port B.
+  wire [17:0] word_a = DATA_WIDTH_B == 36 ? read_low : read_a;
+  reg [17:0] held_a;
+  reg [17:0] held_b;
+  initial begin
+    held_a = 18'd0;
+    held_b = 18'd0;
+  end
+  always @(posedge CLKA) begin
+    if (RSTA && !pseudo_dual) held_a <= 18'd0;
+    else if (pseudo_dual ? OCEB : OCEA) held_a <= word_a;
+  end
+  always @(posedge CLKB) begin
+    if (RSTB) held_b <= 18'd0;
+    else if (OCEB) held_b <= read_b;
+  end
+  wire [17:0] out_a = REGMODE_A == "OUTREG" ? held_a : word_a;
+  wire [17:0] out_b = REGMODE_B == "OUTREG" ? held_b : read_b;
   assign
       {DOA17, DOA16, DOA15, DOA14, DOA13, DOA12, DOA11, DOA10, DOA9, DOA8, DOA7, DOA6, DOA5, DOA4, DOA3, DOA2,
       DOA1, DOA0} = out_a;
   assign
       {DOB17, DOB16, DOB15, DOB14, DOB13, DOB12, DOB11, DOB10, DOB9, DOB8, DOB7, DOB6, DOB5, DOB4, DOB3, DOB2,
-      DOB1, DOB0} = read_b;
+      DOB1, DOB0} = out_b;
 endmodule

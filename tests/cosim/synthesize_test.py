@@ -131,6 +131,52 @@ class synthesize(unittest.TestCase):
         self.assertEqual(self.resources()["block_rams"], 1)
         self.assertEqual(self.resources()["memories"], ["store"])
 
+    def registered_ram(self, register):
+        """A RAM whose word goes through `register`; returns the output modes of the block RAM."""
+        result = self.synthesize(RAM.replace("output reg [17:0] word", "output reg [17:0] last, input wire go")
+                                 .replace("  always", "  reg [17:0] word;\n  always", 1)
+                                 .replace("endmodule", register + "\nendmodule"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        netlist = json.loads((self.folder / "out/top.json").read_text(encoding="utf-8"))
+        rams = [cell for cell in netlist["modules"]["top"]["cells"].values() if cell["type"] == "DP16KD"]
+        self.assertEqual(len(rams), 1)
+        return {rams[0]["parameters"]["REGMODE_A"], rams[0]["parameters"]["REGMODE_B"]}
+
+    def test_moves_registers_after_a_ram_into_it(self):
+        self.assertIn("OUTREG", self.registered_ram("always @(posedge clk) last <= word;"))
+        self.assertEqual(self.resources()["flip_flops"], 0)
+
+    def test_leaves_registers_that_a_ram_does_not_have(self):
+        for register in ("always @(posedge clk) if (go) last <= word;",  # an enable of its own
+                         "always @(posedge clk) last <= go ? 18'd0 : word;",  # a reset or a gate before it
+                         "reg [17:0] other; always @(posedge clk) begin other <= word; last <= word ^ other; end",
+                         "always @(negedge clk) last <= word;"):
+            with self.subTest(register):
+                self.assertEqual(self.registered_ram(register), {"NOREG"})
+                self.assertGreaterEqual(self.resources()["flip_flops"], 18)
+
+    def test_keeps_copies_of_a_flip_flop(self):
+        copies = """
+module epiline_copy #(parameter WIDTH = 1) (input wire clk, input wire clear, input wire [WIDTH-1:0] d,
+                                           output wire [WIDTH-1:0] q);
+  reg [WIDTH-1:0] bits;
+  always @(posedge clk) bits <= clear ? 0 : d;
+  assign q = bits;
+endmodule
+module top (input wire clk, input wire rst, input wire [2:0] a, output wire [8:0] sum);
+  reg [2:0] first;
+  always @(posedge clk) first <= a;
+  epiline_copy #(.WIDTH(3)) second (.clk(clk), .clear(rst), .d(a), .q(sum[5:3]));
+  epiline_copy #(.WIDTH(3)) third (.clk(clk), .clear(1'b0), .d(a), .q(sum[8:6]));
+  assign sum[2:0] = first;
+endmodule
+"""
+        for target in ("ecp5", "hx8k"):
+            (self.folder / "top.v").write_text(copies, encoding="utf-8")
+            result = self.run_script("top.v", "top", "-o", "out", "--target", target)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(self.resources()["flip_flops"], 9, target)
+
     def test_fails_when_a_memory_became_flip_flops(self):
         self.expect_failure(self.synthesize(THREE_PORTS), "store", "flip-flops")
         self.assertEqual(self.resources()["lost_memories"], ["store"])

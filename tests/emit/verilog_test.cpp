@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <limits>
 
 #include "dataflow/random_graph.hpp"
 #include "example_graphs.hpp"
@@ -39,6 +41,7 @@ std::vector<example> examples() {
   add(make_long_wait(12));
   add(make_long_wait(60));
   all.back().name = "longer_wait";
+  add(make_many_readers(40));
   add(make_small_memory());
   add(make_two_writes(true));
   add(make_two_writes(false));
@@ -260,6 +263,32 @@ TEST(make_plan, puts_long_waits_into_ram) {
        emit::make_plan(shorter, small, schedule::make_schedule(shorter, small, {.period = 12})).lines) {
     EXPECT_EQ(line.storage, schedule::storage_kind::block);
   }
+}
+
+TEST(make_plan, gives_many_readers_copies_of_their_flip_flop) {
+  const schedule::delay_model model("ecp5");
+  const unsigned most = model.parameters().most_readers;
+  const graph g = make_many_readers(40);
+  const schedule::result s = schedule::make_schedule(g, model, {});
+  const emit::plan p = emit::make_plan(g, model, s);
+  // 40 sums of 16 bits hang on a valid bit.
+  const int stage = s.register_update[0];
+  const emit::copies& valid = p.valid_copies[stage];
+  EXPECT_GE(valid.count(), 40 * 16 / most);
+  EXPECT_LE(valid.count(), 40u);
+  ASSERT_FALSE(p.value_copies.empty());
+  for (const auto& [place, copies] : p.value_copies) {
+    EXPECT_GT(copies.count(), 1u);
+    EXPECT_TRUE(std::is_sorted(copies.first_reader.begin(), copies.first_reader.end()));
+    for (std::size_t copy = 0; copy < copies.count(); ++copy) EXPECT_EQ(copies.of(copies.first_reader[copy]), copy);
+    EXPECT_EQ(copies.of(std::numeric_limits<schedule::reader>::max()), copies.count() - 1);
+  }
+  EXPECT_GT(p.valid_bits, static_cast<std::uint64_t>(p.last_valid));
+  // Few readers: every flip-flop is the only one.
+  const graph few = make_adder_pipeline();
+  const emit::plan plain = emit::make_plan(few, model, schedule::make_schedule(few, model, {}));
+  EXPECT_TRUE(plain.value_copies.empty());
+  EXPECT_EQ(plain.valid_bits, static_cast<std::uint64_t>(plain.last_valid));
 }
 
 TEST(make_plan, gives_fifos_room_for_all_in_flight) {

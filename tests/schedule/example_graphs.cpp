@@ -152,6 +152,24 @@ graph make_long_wait(unsigned chain) {
   return b.g;
 }
 
+graph make_many_readers(unsigned levels) {
+  graph_builder b("many_readers");
+  const auto in = b.stream("in", true, 16);
+  const auto out = b.stream("out", false, 16);
+  const node_id one = b.always();
+  const node_id x = b.read(in, one);
+  const node_id turned = b.slice(b.sum(x, b.constant(16, 0x1234)), 3, 1);
+  node_id all = b.sum(x, b.add(operation::concat, 16, {b.slice(x, 0, 5), b.slice(x, 5, 11)}));
+  for (unsigned i = 0; i < levels; ++i) {
+    const auto [level, value] = b.state("level" + std::to_string(i), 16, i);
+    const node_id moved = b.sum(value, b.select(turned, x, b.constant(16, i)));
+    b.set(level, moved, i % 3 == 0 ? one : b.slice(x, 0, 1));
+    all = b.binary(operation::bit_xor, all, value);
+  }
+  b.write(out, one, all);
+  return b.g;
+}
+
 graph make_small_memory() {
   graph_builder b("small_memory");
   const auto in = b.stream("in", true, 12);

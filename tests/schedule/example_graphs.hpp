@@ -22,6 +22,8 @@ graph make_accumulator(unsigned width, unsigned adders);
 graph make_calls();
 /// A value that waits for a long chain of other operations: delay lines. `chain` additions of 32 bits.
 graph make_long_wait(unsigned chain);
+/// `levels` sums, of which one condition chooses the terms and another one enables most: both have many readers.
+graph make_many_readers(unsigned levels);
 /// Small RAM (LUT RAM) and a constant table past whose end addresses go.
 graph make_small_memory();
 /// Two writes to one memory under conditions that exclude each other (or visibly do not).

@@ -4,11 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <ctime>
 #include <limits>
 
 #include "example_graphs.hpp"
 #include "schedule/difference_program.hpp"
+#include "schedule/fan_out.hpp"
 
 namespace epiline::testing {
 namespace {
@@ -66,6 +68,49 @@ TEST(delay_model, prices_wires_at_nothing_and_carries_by_their_length) {
   const delay_model ecp5("ecp5");
   const double budget = 6.0 - ecp5.parameters().launch - ecp5.parameters().capture;
   EXPECT_LT(2 * ecp5.delay(b.g, short_sum), budget);
+}
+
+TEST(delay_model, makes_results_with_many_readers_slow) {
+  const delay_model model("ecp5");
+  const graph few = make_many_readers(2);
+  const graph many = make_many_readers(80);
+  const auto slowest = [&](const graph& g) {
+    const std::vector<double> spread = schedule::find_spread(g, model);
+    return *std::max_element(spread.begin(), spread.end());
+  };
+  EXPECT_GT(slowest(many), slowest(few) + 3 * model.parameters().spread_doubling);
+  // Wires pass their readers on to what drives them; a slice's part of a value loads the value's bits on average.
+  graph_builder b("loads");
+  const node_id x = b.read(b.stream("in", true, 8), b.always());
+  const node_id low = b.slice(x, 0, 4);
+  const node_id doubled = b.sum(low, low);
+  const node_id chosen = b.select(b.slice(x, 0, 1), doubled, low);
+  b.write(b.stream("out", false, 4), b.always(), chosen);
+  double loads_of_x = 0;
+  for (const schedule::load& l : schedule::find_loads(b.g, model)) {
+    if (l.value == x) loads_of_x += l.inputs;
+  }
+  // The slice drives the sum twice and the selection once in 4 bits of 8, the condition 4 inputs in one bit of 8.
+  EXPECT_DOUBLE_EQ(loads_of_x, 3 * 4 / 8.0 + 4 / 8.0);
+}
+
+TEST(make_schedule, leaves_room_for_wires_outside_recurrences) {
+  const delay_model model("ecp5");
+  const double share = model.parameters().calm_share;
+  ASSERT_LT(share, 1);
+  const graph g = make_adder_pipeline();
+  for (const double period : {6.0, 7.0, 9.0}) {
+    EXPECT_LE(make_schedule(g, model, {period, 1}).critical_delay, period * share + 1e-9) << period;
+  }
+  // A recurrence may take the whole period: with less than that there is no schedule.
+  const graph loop = make_accumulator(16, 1);
+  const schedule::result s = make_schedule(loop, model, {9, 1});
+  const std::vector<schedule::recurrence_delay> loops = schedule::recurrences(loop, model, s);
+  ASSERT_FALSE(loops.empty());
+  double slowest = 0;
+  for (const schedule::recurrence_delay& r : loops) slowest = std::max(slowest, r.delay);
+  EXPECT_NO_THROW((void)make_schedule(loop, model, {slowest + 0.01, 1}));
+  EXPECT_THROW((void)make_schedule(loop, model, {slowest - 0.05, 1}), schedule::infeasible);
 }
 
 TEST(delay_model, counts_block_rams_like_yosys) {

@@ -1,0 +1,30 @@
+#pragma once
+// How many inputs every value drives: what makes wires slow, and what copies of registers are for.
+
+#include <cstdint>
+#include <vector>
+
+#include "dataflow/graph.hpp"
+#include "schedule/delay_model.hpp"
+
+namespace epiline::schedule {
+
+/// One who reads a value: a node by its number, or a register (its next value or its enable) by the number of nodes
+/// plus its own. Numbers follow the source, so that neighbours in number are neighbours in the design.
+using reader = std::uint32_t;
+
+struct load {
+  dataflow::node_id value = dataflow::none;
+  reader by = 0;
+  double inputs = 0;  // that one bit of the value drives there, wires behind it followed to their ends
+};
+
+/// Every read of every value that is not a constant, in the order of the readers. What stands behind a wire (a slice,
+/// an extension) loads the wire's operand, too.
+[[nodiscard]] std::vector<load> find_loads(const dataflow::graph& g, const delay_model& model);
+
+/// Per node: nanoseconds by which its many readers delay its result beyond the wire that delay() counts, where no
+/// register, of which there may be copies, stands between.
+[[nodiscard]] std::vector<double> find_spread(const dataflow::graph& g, const delay_model& model);
+
+}  // namespace epiline::schedule

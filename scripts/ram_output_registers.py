@@ -1,0 +1,92 @@
+#!/usr/bin/env python3
+"""Moves the registers after ECP5 block RAMs into the RAMs, which Yosys does not do.
+
+ram_output_registers.py NETLIST.json
+
+A DP16KD without its output register takes 4 ns from the clock to its output, most of a clock of 150 MHz; with it, a
+flip-flop's time. A register is moved when every used output bit of a port leads to one flip-flop and nowhere else, and
+that flip-flop has the RAM's clock and neither enable nor reset. Changes the file in place and prints what it did.
+"""
+
+import collections
+import json
+import os
+import pathlib
+import sys
+
+
+def is_plain_flip_flop(cell, clock):
+    """A flip-flop that takes its input at every edge of `clock` and starts with 0, as a RAM's output register does."""
+    parameters, connections = cell["parameters"], cell["connections"]
+    enable = parameters.get("CEMUX", "1").strip()
+    return (cell["type"] == "TRELLIS_FF"
+            and (enable == "1" or (enable == "CE" and connections.get("CE") == ["1"]))
+            and connections.get("LSR", ["0"]) in ([], ["0"], ["x"])
+            and parameters.get("LSRMUX", "LSR") == "LSR"
+            and parameters.get("REGSET", "RESET") == "RESET"
+            and parameters.get("CLKMUX", "CLK") == "CLK"
+            and connections["CLK"] == clock)
+
+
+def find_readers(module):
+    """Per net: the cells' inputs that it drives, and None for a port of the module."""
+    readers = collections.defaultdict(list)
+    for name, cell in module["cells"].items():
+        for port, bits in cell["connections"].items():
+            if cell["port_directions"][port] == "output":
+                continue
+            for bit in bits:
+                readers[bit].append((name, port))
+    for port in module["ports"].values():
+        if port["direction"] != "input":
+            for bit in port["bits"]:
+                readers[bit].append((None, None))
+    return readers
+
+
+def move_registers(module):
+    """Returns how many flip-flops went into RAMs."""
+    cells = module["cells"]
+    readers = find_readers(module)
+    moved = 0
+    for ram in [cell for cell in cells.values() if cell["type"] == "DP16KD"]:
+        pins = ram["connections"]
+        for side in "AB":
+            outputs = [pin for pin in pins if pin.startswith("DO" + side) and pins[pin] and readers[pins[pin][0]]]
+            # A 36-bit word leaves by both sides, clocked by side B.
+            wide = int(ram["parameters"].get("DATA_WIDTH_B", "0"), 2) == 36
+            clock = pins["CLKB" if wide else "CLK" + side]
+            if not outputs or ram["parameters"].get("REGMODE_" + side, "NOREG") != "NOREG":
+                continue
+            found = [readers[pins[pin][0]] for pin in outputs]
+            if not all(len(one) == 1 and one[0][1] == "DI" and is_plain_flip_flop(cells[one[0][0]], clock)
+                       for one in found):
+                continue
+            for pin, one in zip(outputs, found):
+                flip_flop = cells.pop(one[0][0])
+                pins[pin] = flip_flop["connections"]["Q"]
+            ram["parameters"]["REGMODE_" + side] = "OUTREG"
+            for enable in ("OCE" + side, "OCEB"):
+                pins[enable] = ["1"]
+                ram["port_directions"][enable] = "input"
+            moved += len(outputs)
+    return moved
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__.split("\n\n")[1])
+    file = pathlib.Path(sys.argv[1])
+    try:
+        netlist = json.loads(file.read_text(encoding="utf-8"))
+        moved = sum(move_registers(module) for module in netlist["modules"].values())
+    except (OSError, ValueError, KeyError, AttributeError) as error:
+        sys.exit(f"ram_output_registers.py: error: {file} is not a netlist that Yosys wrote ({error!r})")
+    new = file.with_name(file.name + ".new")
+    new.write_text(json.dumps(netlist, indent=1), encoding="utf-8")
+    os.replace(new, file)
+    print(f"{moved} flip-flops moved into block RAMs")
+
+
+if __name__ == "__main__":
+    main()
