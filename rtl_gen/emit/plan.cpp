@@ -192,7 +192,7 @@ void plan_copies(const graph& g, const schedule::delay_model& model, const sched
         if (stage - 1 > s.available[id]) {
           for (const schedule::reader by : divided.first_reader) of_value[{id, stage - 1}].emplace_back(by, 1);
         }
-        p.copy_bits += (divided.count() - 1) * g.nodes[id].width;
+        p.spare_bits += (divided.count() - 1) * g.nodes[id].width;
         p.value_copies[{id, stage}] = divided;
       }
     }
@@ -203,11 +203,10 @@ void plan_copies(const graph& g, const schedule::delay_model& model, const sched
     of_valid[s.register_update[r]].emplace_back(count + r, g.registers[r].width);
   }
   p.valid_copies.assign(p.last_valid + 1, copies{{0}});
-  p.valid_bits = p.last_valid;
   for (int stage = p.last_valid; stage >= 1; --stage) {
     copies& divided = p.valid_copies[stage];
     divided = divide_readers(of_valid[stage], most);
-    p.valid_bits += divided.count() - 1;
+    p.spare_bits += divided.count() - 1;
     if (divided.count() == 1 || stage == 1) continue;
     for (const schedule::reader by : divided.first_reader) of_valid[stage - 1].emplace_back(by, 1);
   }

@@ -80,8 +80,8 @@ struct plan {
   std::map<std::pair<dataflow::node_id, int>, copies> value_copies;  // of what waits in flip-flops, by value and stage
   std::vector<copies> valid_copies;                                  // per stage; stage 0 has none
   int last_valid = 1;              // the last stage that needs its valid bit
-  std::uint64_t copy_bits = 0;     // flip-flops of waiting values, with their copies
-  std::uint64_t valid_bits = 0;    // flip-flops of valid bits, with their copies
+  std::uint64_t copy_bits = 0;     // flip-flops of waiting values
+  std::uint64_t spare_bits = 0;    // flip-flops of value_copies and valid_copies beside the first ones
   std::uint64_t settled_bits = 0;  // flip-flops of settled values and of patient registers' next values
 };
 

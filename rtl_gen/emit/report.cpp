@@ -160,8 +160,9 @@ json make_report(const graph& g, const schedule::delay_model& model, const sched
       {"settled_bits", p.settled_bits},
       {"port_bits", input_bits},
       {"ram_output_bits", word_bits},
-      {"valid_bits", p.valid_bits},
-      {"total_bits", state_bits + p.copy_bits + p.settled_bits + input_bits + word_bits + p.valid_bits}};
+      {"valid_bits", p.last_valid},
+      {"copies_bits", p.spare_bits},
+      {"total_bits", state_bits + p.copy_bits + p.settled_bits + input_bits + word_bits + p.last_valid + p.spare_bits}};
 
   json memories = json::array();
   for (std::size_t m = 0; m < g.memories.size(); ++m) {
@@ -277,9 +278,10 @@ std::string report_text(const json& report) {
   const json& registers = report["registers"];
   line("\nEstimated size: {:.0f} LUT4, {} flip-flops, {} block RAMs", estimate["lut4"].get<double>(),
        number(registers["total_bits"]), number(estimate["block_rams"]));
-  line("  flip-flops: {} state, {} pipeline, {} RAM outputs, {} ports, {} settled values, {} valid bits",
+  line("  flip-flops: {} state, {} pipeline, {} RAM outputs, {} ports, {} settled values, {} valid bits, {} copies",
        number(registers["state_bits"]), number(registers["pipeline_bits"]), number(registers["ram_output_bits"]),
-       number(registers["port_bits"]), number(registers["settled_bits"]), number(registers["valid_bits"]));
+       number(registers["port_bits"]), number(registers["settled_bits"]), number(registers["valid_bits"]),
+       number(registers["copies_bits"]));
 
   line("\nPorts");
   for (const json& port : report["interface"]["ports"]) {
