@@ -1,9 +1,12 @@
 #pragma once
 #include <ap_int.h>
 
+#include <type_traits>
+
 #include "kernels/local_variation.hpp"
 #include "kernels/luma.hpp"
 #include "kernels/nested_column_sum.hpp"
+#include "kernels/paired_row_sum.hpp"
 #include "kernels/row_sum.hpp"
 #include "window/window.hpp"
 
@@ -14,7 +17,8 @@ namespace epiline::kernels {
 /// since the choice does not depend on d, the three sums meet in front of the search for the winner.
 ///
 /// Border policy: pixels outside the frame contribute 0. Costs of candidates d > x are meaningless, they must not win.
-/// Lane l of the result belongs to the pixel `window_radius` rows above and `delay_beats` beats before the newest one.
+/// Lane l of the result belongs to the pixel `window_radius` rows above and `delay_columns` columns left of lane l of
+/// the newest beat.
 ///
 /// Config: levels, pixels_per_beat, max_width.
 template <class Config>
@@ -24,7 +28,9 @@ class adaptive_sad {
   static constexpr int levels = Config::levels;
   static constexpr int window_radius = 3;
   static constexpr int window_rows = 2 * window_radius + 1;
-  static constexpr int delay_beats = window::divide_up(window_radius, lanes);
+  /// A beat more than the window needs: columns are summed up a beat after they were made, out of registers, and that
+  /// those outside the frame are 0 is then a reset of these registers instead of a gate in front of every adder.
+  static constexpr int delay_columns = window_radius + lanes;
 
  private:
   /// All three windows are centred on the same column, so the smaller ones wait for the largest.
@@ -32,11 +38,12 @@ class adaptive_sad {
   struct luma_window {
     static constexpr int radius = Radius;
     static constexpr int largest_difference = 255;
-    static constexpr int delay_beats = adaptive_sad::delay_beats;
+    static constexpr int delay_columns = adaptive_sad::delay_columns;
+    static constexpr int delay_beats = delay_columns;  // of one pixel
   };
 
  public:
-  static constexpr int cost_bits = row_sum<Config, luma_window<3>>::cost_t::width;
+  static constexpr int cost_bits = window::bits_for(window_rows * window_rows * 255);
   using cost_t = ap_uint<cost_bits + 1>;  // the bit on top is 0
   using costs = level_array<cost_t, lanes, levels>;
   static constexpr int penalty = 1 << cost_bits;  // for candidate_mask
@@ -55,17 +62,18 @@ class adaptive_sad {
     const auto columns =
         columns_.step(differences(0, left, right, at, row0_), differences(1, left, right, at, row1_),
                       differences(5, left, right, at, row5_), differences(6, left, right, at, row6_), at.column);
-    const auto cost3 = rows3_.step(columns.three);
-    const auto cost5 = rows5_.step(columns.five);
-    const auto cost7 = rows7_.step(columns.seven);
+    const auto three = rows3_.step(columns.three);
+    const auto five = rows5_.step(columns.five);
+    const auto seven = rows7_.step(columns.seven);
     costs result;
-    for (int lane = 0; lane < lanes; ++lane) {
-      for (int d = 0; d < levels; ++d) result.at[lane][d] = cost7.at[lane][d];
-      if (choice[lane] == window_5x5) {
-        for (int d = 0; d < levels; ++d) result.at[lane][d] = cost5.at[lane][d];
-      }
-      if (choice[lane] == window_3x3) {
-        for (int d = 0; d < levels; ++d) result.at[lane][d] = cost3.at[lane][d];
+    if constexpr (lanes == 1) {
+      choose(result, choice, three, five, seven);
+    } else {
+      level_array<ap_uint<cost_bits>, lanes, levels> single;
+      choose(result, choice, three.pairs, five.pairs, seven.pairs);
+      choose(single, choice, three.single, five.single, seven.single);
+      for (int lane = 0; lane < lanes; ++lane) {
+        for (int d = 0; d < levels; ++d) result.at[lane][d] = result.at[lane][d] + single.at[lane][d];
       }
     }
     return result;
@@ -76,6 +84,27 @@ class adaptive_sad {
   // than the centre's candidates do.
   using taps = window::row_window<luma_t, lanes, lanes - 1 + levels, window::replicated_border<window_radius>>;
   using rows_t = luma_t[window_rows][lanes];
+
+  /// One pixel a beat: a running sum takes the fewest adders. More: pairs do.
+  template <int Radius>
+  using rows_of =
+      std::conditional_t<lanes == 1, row_sum<Config, luma_window<Radius>>, paired_row_sum<Config, luma_window<Radius>>>;
+
+  /// The values of every lane's own window.
+  template <class Result, class Three, class Five, class Seven>
+  static void choose(Result& result, const window_choice_t (&choice)[lanes], const Three& three, const Five& five,
+                     const Seven& seven) {
+#pragma HLS INLINE
+    for (int lane = 0; lane < lanes; ++lane) {
+      for (int d = 0; d < levels; ++d) result.at[lane][d] = seven.at[lane][d];
+      if (choice[lane] == window_5x5) {
+        for (int d = 0; d < levels; ++d) result.at[lane][d] = five.at[lane][d];
+      }
+      if (choice[lane] == window_3x3) {
+        for (int d = 0; d < levels; ++d) result.at[lane][d] = three.at[lane][d];
+      }
+    }
+  }
 
   static typename nested_column_sum<Config>::differences differences(int k, const rows_t& left, const rows_t& right,
                                                                      const place& at, taps& history) {
@@ -101,9 +130,9 @@ class adaptive_sad {
   taps row5_;
   taps row6_;
   nested_column_sum<Config> columns_;
-  row_sum<Config, luma_window<1>> rows3_;
-  row_sum<Config, luma_window<2>> rows5_;
-  row_sum<Config, luma_window<3>> rows7_;
+  rows_of<1> rows3_;
+  rows_of<2> rows5_;
+  rows_of<3> rows7_;
 };
 
 }  // namespace epiline::kernels

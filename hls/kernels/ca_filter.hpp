@@ -2,62 +2,11 @@
 #include <ap_int.h>
 
 #include "kernels/disparity.hpp"
-#include "window/bits.hpp"
-#include "window/line_buffer.hpp"
-#include "window/reduce.hpp"
+#include "kernels/label_window.hpp"
+#include "kernels/ring_counts.hpp"
 #include "window/window.hpp"
 
 namespace epiline::kernels {
-
-/// A pixel's label: its disparity, and bit 7 = defined. An undefined label is 0.
-using label_t = ap_uint<8>;
-
-/// The square of labels around a centre that walks over the raster, `Radius` rows above and `delay_beats` beats before
-/// the newest label. Rows above come from line buffers, columns from registers.
-///
-/// Border policy: cells outside the frame are undefined. The caller provides `Radius` rows of undefined labels before
-/// and after the frame, and between two rows at least `Radius` labels outside the columns, which are taken as
-/// undefined.
-///
-/// Config: pixels_per_beat, max_width.
-template <class Config, int Radius>
-class label_window {
- public:
-  static constexpr int lanes = Config::pixels_per_beat;
-  static constexpr int rows = 2 * Radius + 1;
-  static constexpr int delay_beats = window::divide_up(Radius, lanes);
-
-  /// `beat`: of the row; it may come again after `shortest_row` iterations at the earliest.
-  void step(const label_t (&newest)[lanes], int beat, bool in_columns) {
-#pragma HLS INLINE
-    label_t labels[rows][lanes];
-    for (int row = 0; row < rows; ++row) {
-      for (int lane = 0; lane < lanes; ++lane) labels[row][lane] = 0;
-    }
-    if (in_columns) {
-      word_t word;
-      for (int lane = 0; lane < lanes; ++lane) word.range(8 * lane + 7, 8 * lane) = newest[lane];
-      const auto above = lines_.step(word, beat);
-      for (int lane = 0; lane < lanes; ++lane) {
-        labels[rows - 1][lane] = newest[lane];
-        for (int row = 0; row < rows - 1; ++row) {
-          labels[row][lane] = above.rows[rows - 2 - row].range(8 * lane + 7, 8 * lane);
-        }
-      }
-    }
-    for (int row = 0; row < rows; ++row) rows_[row].step(labels[row], false);
-  }
-
-  /// The cell `down` rows below and `right` columns right of the lane's centre.
-  label_t cell(int lane, int down, int right) const {
-    return rows_[Radius + down].tap[delay_beats * lanes + lanes - 1 - lane - right];
-  }
-
- private:
-  using word_t = ap_uint<lanes * 8>;
-  window::line_buffer<word_t, rows - 1, window::divide_up(Config::max_width, lanes)> lines_;
-  window::row_window<label_t, lanes, delay_beats * lanes + lanes + Radius> rows_[rows];
-};
 
 /// Cellular automaton on the binary planes of all levels, equations (3) and (4) of the paper, without the planes: only
 /// a level present in a pixel's 3x3 neighbourhood can claim the pixel, so labels are enough.
@@ -68,7 +17,7 @@ class label_window {
 ///
 /// Lane l of the result belongs to the pixel `delay_rows` rows above and `delay_beats` beats before the newest one.
 /// Border policy: see label_window; pixels outside the frame are set in no plane, and no rule sets them.
-/// State: the two windows, and what belongs to the beats between them.
+/// State: the two windows, the counts of the second one, and what belongs to the beats between them.
 ///
 /// Config: pixels_per_beat, max_width.
 template <class Config>
@@ -80,7 +29,6 @@ class ca_filter {
   static constexpr int lanes = Config::pixels_per_beat;
   static constexpr int delay_rows = 1 + 3;
   static constexpr int delay_beats = near_window::delay_beats + ring_window::delay_beats;
-  static constexpr int ring_cells = 7 * 7 - 3 * 3;
   using ring_t = ap_uint<6>;
 
   struct place {
@@ -107,11 +55,12 @@ class ca_filter {
     }
     const place& at_ring = places_.tap[near_window::delay_beats];
     ring_.step(settled, at_ring.beat, at_ring.in_columns);
+    const auto support = support_.step(ring_);
 
     const place& at_result = places_.tap[delay_beats];
     disparity_beat_of<lanes> result;
     for (int lane = 0; lane < lanes; ++lane) {
-      const label_t label = enabled ? rule2(ring_, lane, ring) : ring_.cell(lane, 0, 0);
+      const label_t label = enabled ? rule2(ring_, lane, support.of[lane], ring) : ring_.cell(lane, 0, 0);
       result.pixel[lane].disparity = label;
       result.pixel[lane].defined = at_result.in_frame[lane] && (label & defined) != 0;
       result.pixel[lane].in_frame = at_result.in_frame[lane];
@@ -122,7 +71,7 @@ class ca_filter {
 
  private:
   static constexpr int defined = 0x80;
-  using count_t = ap_uint<8>;  // 0 .. 40; as wide as the labels, which keeps native vectors full
+  using count_t = typename ring_counts<Config>::count_t;
 
   /// A level set in 7 of 8 neighbours is set in one of any two of them.
   static label_t rule1(const near_window& labels, int lane) {
@@ -144,29 +93,19 @@ class ca_filter {
     return (label & defined) != 0 && equal_cells(label, neighbour) >= 7;
   }
 
-  static label_t rule2(const ring_window& labels, int lane, ring_t ring) {
+  /// `support[1 + down][1 + right]`: how many cells of the ring equal that near cell.
+  static label_t rule2(const ring_window& labels, int lane, const count_t (&support)[3][3], ring_t ring) {
 #pragma HLS INLINE
-    label_t cells[ring_cells];
-    label_t near[9];
-    int ring_count = 0;
-    int near_count = 0;
-    for (int down = -3; down <= 3; ++down) {
-      for (int right = -3; right <= 3; ++right) {
-        const bool is_near = down >= -1 && down <= 1 && right >= -1 && right <= 1;
-        if (is_near) {
-          near[near_count++] = labels.cell(lane, down, right);
-        } else {
-          cells[ring_count++] = labels.cell(lane, down, right);
-        }
-      }
-    }
     // All who claim the pixel are of one level iff their labels' union is their intersection.
     label_t any = 0;
     label_t all = ~label_t(0);
-    for (int i = 0; i < 9; ++i) {
-      const bool claims = (near[i] & defined) != 0 && equal_cells(near[i], cells) >= ring;
-      any = any | (claims ? near[i] : label_t(0));
-      all = all & (claims ? near[i] : label_t(~label_t(0)));
+    for (int down = -1; down <= 1; ++down) {
+      for (int right = -1; right <= 1; ++right) {
+        const label_t near = labels.cell(lane, down, right);
+        const bool claims = (near & defined) != 0 && support[1 + down][1 + right] >= ring;
+        any = any | (claims ? near : label_t(0));
+        all = all & (claims ? near : label_t(~label_t(0)));
+      }
     }
     return any == all ? any : label_t(0);
   }
@@ -189,6 +128,7 @@ class ca_filter {
 
   near_window near_;
   ring_window ring_;
+  ring_counts<Config> support_;
   window::row_window<place, 1, delay_beats + 1> places_;
 };
 

@@ -18,17 +18,17 @@ using window_choice_t = ap_uint<2>;
 ///   LV5 = sum |25 I - S| over the centred 5x5 (0 .. 79560), S = the sum of the window's pixels;
 ///   LV2 > 4 T2: 3x3, else LV5 > 25 T5: 5x5, else 7x7.
 ///
-/// Lane l of the result belongs to the pixel `delay_beats` beats before the newest column, in the middle of its rows.
+/// Lane l of the result belongs to the pixel `DelayColumns` columns left of lane l of the newest beat, in the middle of
+/// its rows.
 /// Border policy: replicated. Rows and columns outside the frame are replaced as they enter, by the nearest one inside.
 /// State: the newest columns: every pixel 25 times (so that one multiplication serves all windows it takes part in) and
 /// the columns' sums.
 ///
 /// Config: pixels_per_beat.
-template <class Config, int DelayBeats>
+template <class Config, int DelayColumns>
 class local_variation {
  public:
   static constexpr int lanes = Config::pixels_per_beat;
-  static constexpr int delay_beats = DelayBeats;
   static constexpr int rows = 5;
   using lv2_t = ap_uint<window::bits_for(2040)>;
   using lv5_t = ap_uint<window::bits_for(79560)>;
@@ -108,7 +108,7 @@ class local_variation {
  private:
   using times25_t = ap_uint<window::bits_for(25 * 255)>;
   using sum_t = ap_uint<window::bits_for(5 * 255)>;
-  static constexpr int centre_tap(int lane) { return delay_beats * lanes + lanes - 1 - lane; }
+  static constexpr int centre_tap(int lane) { return DelayColumns + lanes - 1 - lane; }
   static constexpr int taps = centre_tap(0) + 3;
   static_assert(centre_tap(lanes - 1) >= 2, "the window reaches further right than the newest column");
   using border = window::replicated_border<2>;

@@ -15,6 +15,7 @@
 #include "tops/stereo_interface.hpp"
 #include "window/bits.hpp"
 #include "window/raster.hpp"
+#include "window/window.hpp"
 
 namespace epiline::tops {
 
@@ -22,7 +23,7 @@ namespace epiline::tops {
 struct adaptive_ca_config {
   static constexpr int max_width = 1024;
   static constexpr int max_height = 4095;
-  static constexpr int levels = 80;  // at most 128
+  static constexpr int levels = 80;                                 // at most 128
   static constexpr int parallel_disparities = kernels::all_levels;  // computed in one clock
   static constexpr int pixels_per_beat = 1;
 };
@@ -33,7 +34,8 @@ struct adaptive_ca_interface : stereo_interface<Config> {
   /// How the raster walks over a frame: the windows of the matcher and of the automaton's two rules lie one behind the
   /// other, the columns between two rows serve them all.
   struct schedule : stereo_schedule<Config> {
-    static constexpr int padding_beats = kernels::adaptive_sad<Config>::delay_beats;
+    static constexpr int padding_beats =
+        window::divide_up(kernels::adaptive_sad<Config>::delay_columns, Config::pixels_per_beat);
     static constexpr int padding_rows =
         kernels::adaptive_sad<Config>::window_radius + kernels::ca_filter<Config>::delay_rows;
     static constexpr int flush_beats =
@@ -63,7 +65,7 @@ void adaptive_ca_frame(hls::stream<typename adaptive_ca_interface<Config>::video
   using frame_raster = window::raster<schedule>;
   using sad = adaptive_sad<Config>;
   using rows = luma_rows<Config, sad::window_rows>;
-  using variation_t = local_variation<Config, sad::delay_beats>;
+  using variation_t = local_variation<Config, sad::delay_columns - Config::pixels_per_beat>;
   using filter_t = ca_filter<Config>;
   constexpr int lanes = Config::pixels_per_beat;
   constexpr int radius = sad::window_radius;
@@ -71,7 +73,10 @@ void adaptive_ca_frame(hls::stream<typename adaptive_ca_interface<Config>::video
   // State lives on from frame to frame: calls follow one another without a bubble, and nothing needs a reset.
   static rows lines;
   static variation_t variation;
+  static window_choice_t choice_a_beat_ago[lanes];
   static sad matcher;
+  static window::row_window<disparity_pixel, lanes, schedule::padding_beats * lanes - sad::delay_columns + lanes>
+      winners;
   static filter_t filter;
 
   const typename frame_raster::beats_t beats = (width + (lanes - 1)) / lanes;
@@ -107,25 +112,39 @@ void adaptive_ca_frame(hls::stream<typename adaptive_ca_interface<Config>::video
     variation_at.row_starts = at.row_starts;
     variation.step(around, variation_at);
     window_choice_t choice[lanes];
-    for (int lane = 0; lane < lanes; ++lane) choice[lane] = variation.choice(lane, t2, t5);
+    for (int lane = 0; lane < lanes; ++lane) {
+      choice[lane] = choice_a_beat_ago[lane];
+      choice_a_beat_ago[lane] = variation.choice(lane, t2, t5);
+    }
 
     const auto all_costs = matcher.step(columns.left, columns.right, at, choice);
 
-    // The pixel the costs belong to lies half a window above and left of the newest one.
+    // The pixels the costs belong to lie half a window above and further left.
     const bool centre_in_rows = raster.row() >= radius && raster.row() < height + radius && !raster.in_flush();
+    const ap_int<window::bits_for(frame_raster::longest_row * lanes) + 1> centre_x =
+        raster.beat() * lanes - sad::delay_columns;
+    bool centre_in[lanes];
+    for (int lane = 0; lane < lanes; ++lane) {
+      centre_in[lane] = centre_in_rows && centre_x + lane >= 0 && centre_x + lane < width;
+    }
+    const auto costs =
+        candidate_mask<Config, typename sad::costs, sad::penalty>::step(all_costs, centre_x, centre_in, levels);
+
+    disparity_pixel centre_winner[lanes];
+    typename sad::cost_t lowest[lanes];
+    pick_winners(costs, centre_in, centre_winner, lowest);
+
+    // They make whole beats again here, where they are narrow.
+    winners.step(centre_winner, false);
+    disparity_pixel winner[lanes];
+    for (int lane = 0; lane < lanes; ++lane) {
+      winner[lane] = winners.tap[schedule::padding_beats * lanes - sad::delay_columns + lanes - 1 - lane];
+    }
     const bool centre_started = raster.beat() >= schedule::padding_beats;
     const typename frame_raster::beat_t centre_beat = raster.beat() - schedule::padding_beats;
-    const ap_uint<window::bits_for(frame_raster::longest_row * lanes)> centre_x = centre_beat * lanes;
+    const ap_uint<window::bits_for(frame_raster::longest_row * lanes)> beat_x = centre_beat * lanes;
     bool column_in[lanes];
-    lanes_inside(centre_x, width, centre_started && !raster.in_flush(), column_in);
-    bool pixel_in[lanes];
-    for (int lane = 0; lane < lanes; ++lane) pixel_in[lane] = centre_in_rows && column_in[lane];
-    const auto costs =
-        candidate_mask<Config, typename sad::costs, sad::penalty>::step(all_costs, centre_x, pixel_in, levels);
-
-    disparity_pixel winner[lanes];
-    typename sad::cost_t lowest[lanes];
-    pick_winners(costs, pixel_in, winner, lowest);
+    lanes_inside(beat_x, width, centre_started && !raster.in_flush(), column_in);
 
     // The automaton's result lies further above; what its beat means is known here already.
     typename filter_t::place filter_at;

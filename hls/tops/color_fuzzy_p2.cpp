@@ -2,9 +2,7 @@
 #include "tops/color_fuzzy.hpp"
 
 namespace {
-struct config : epiline::tops::color_fuzzy_config {
-  static constexpr int pixels_per_beat = 2;
-};
+using config = epiline::tops::two_pixels_a_beat_of<epiline::tops::color_fuzzy_config>;
 using types = epiline::tops::color_fuzzy_interface<config>;
 }  // namespace
 

@@ -18,6 +18,12 @@ struct few_levels_of : Full {
   static constexpr int levels = 8;
 };
 
+/// A method's configuration at twice the frames a second and the same clock.
+template <class Full>
+struct two_pixels_a_beat_of : Full {
+  static constexpr int pixels_per_beat = 2;
+};
+
 /// What all methods' walks over a frame have in common; see window::raster.
 template <class Config>
 struct stereo_schedule {

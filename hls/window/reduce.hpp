@@ -37,10 +37,10 @@ Value reduce(const Value (&values)[N], Combine combine) {
 
 /// Tie-break policies of `minimum`: which of the places of the smallest value wins.
 struct smallest_index_wins {
-  static constexpr int rank(int index, int /*count*/) { return index; }
+  static constexpr bool largest = false;
 };
 struct largest_index_wins {
-  static constexpr int rank(int index, int count) { return count - 1 - index; }
+  static constexpr bool largest = true;
 };
 
 template <class Value, class Index>
@@ -49,21 +49,44 @@ struct indexed {
   Index index;
 };
 
-/// The smallest of values[0 .. N-1] and where it stands. Value and rank of the place form one number, so a node of the
-/// tree is one comparison, ties included.
+/// The smallest of `keys`, with the bits of its place (inverted where the largest place wins) appended below.
+/// The halves of the array meet, so every level of the tree decides the place's next lower bit: what is known of the
+/// places is the lower part of the keys, of which one comparison decides, ties included. It grows with the level.
+template <class Tie, int N, int Bits>
+auto smallest_key(const ap_uint<Bits> (&keys)[N]) {
+#pragma HLS INLINE
+  if constexpr (N == 1) {
+    return keys[0];
+  } else {
+    constexpr int half = 1 << (bits_for(N - 1) - 1);
+    ap_uint<Bits + 1> reduced[half];
+    for (int i = 0; i < N - half; ++i) {
+      const ap_uint<Bits> a = keys[i];
+      const ap_uint<Bits> b = keys[i + half];
+      const bool second = Tie::largest ? !(a < b) : b < a;
+      reduced[i] = (ap_uint<Bits + 1>(second ? b : a) << 1) | ap_uint<Bits + 1>(second != Tie::largest);
+    }
+    for (int i = N - half; i < half; ++i) {
+      reduced[i] = (ap_uint<Bits + 1>(keys[i]) << 1) | ap_uint<Bits + 1>(Tie::largest);
+    }
+    return smallest_key<Tie>(reduced);
+  }
+}
+
+/// The smallest of values[0 .. N-1] and where it stands.
 template <class Tie, int N, int Bits>
 auto minimum(const ap_uint<Bits> (&values)[N]) {
 #pragma HLS INLINE
   constexpr int index_bits = bits_for(N - 1);
   using index_t = ap_uint<index_bits>;
-  using key_t = ap_uint<Bits + index_bits>;
-  key_t keys[N];
-  for (int i = 0; i < N; ++i) {
-    keys[i] = (key_t(values[i]) << index_bits) | key_t(Tie::rank(indices<N>.of[i], N));
+  if constexpr (N == 1) {
+    return indexed<ap_uint<Bits>, index_t>{values[0], index_t(0)};
+  } else {
+    const ap_uint<Bits + index_bits> smallest = smallest_key<Tie>(values);
+    const index_t place = smallest;
+    return indexed<ap_uint<Bits>, index_t>{ap_uint<Bits>(smallest >> index_bits),
+                                           Tie::largest ? index_t(~place) : place};
   }
-  const key_t smallest = reduce(keys, [](key_t a, key_t b) { return a < b ? a : b; });
-  const index_t rank = smallest;
-  return indexed<ap_uint<Bits>, index_t>{ap_uint<Bits>(smallest >> index_bits), index_t(Tie::rank(rank, N))};
 }
 
 }  // namespace epiline::window

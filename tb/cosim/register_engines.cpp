@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include "adaptive_ca_p2_rtl_model.hpp"
 #include "adaptive_ca_rtl_model.hpp"
+#include "color_fuzzy_p2_rtl_model.hpp"
 #include "color_fuzzy_rtl_model.hpp"
 #include "cosim/engines.hpp"
 
@@ -21,6 +23,10 @@ constexpr built_design built_designs[] = {
      "color_fuzzy_netlist_library"},
     {"adaptive_ca", EPILINE_ADAPTIVE_CA_GRAPH, make_adaptive_ca_rtl_model, EPILINE_ADAPTIVE_CA_NETLIST,
      "adaptive_ca_netlist_library"},
+    {"color_fuzzy_p2", EPILINE_COLOR_FUZZY_P2_GRAPH, make_color_fuzzy_p2_rtl_model, EPILINE_COLOR_FUZZY_P2_NETLIST,
+     "color_fuzzy_p2_netlist_library"},
+    {"adaptive_ca_p2", EPILINE_ADAPTIVE_CA_P2_GRAPH, make_adaptive_ca_p2_rtl_model, EPILINE_ADAPTIVE_CA_P2_NETLIST,
+     "adaptive_ca_p2_netlist_library"},
 };
 
 }  // namespace

@@ -9,17 +9,30 @@
 namespace {
 using color_fuzzy_types = epiline::tops::color_fuzzy_interface<epiline::tops::color_fuzzy_config>;
 using adaptive_ca_types = epiline::tops::adaptive_ca_interface<epiline::tops::adaptive_ca_config>;
+using color_fuzzy_p2_config = epiline::tops::two_pixels_a_beat_of<epiline::tops::color_fuzzy_config>;
+using adaptive_ca_p2_config = epiline::tops::two_pixels_a_beat_of<epiline::tops::adaptive_ca_config>;
+using color_fuzzy_p2_types = epiline::tops::color_fuzzy_interface<color_fuzzy_p2_config>;
+using adaptive_ca_p2_types = epiline::tops::adaptive_ca_interface<adaptive_ca_p2_config>;
+
+template <class Types>
+using color_fuzzy_top = void(hls::stream<typename Types::video_beat>& left,
+                             hls::stream<typename Types::video_beat>& right,
+                             hls::stream<typename Types::disparity_beat>& disparity, typename Types::width_t width,
+                             typename Types::height_t height, typename Types::levels_t levels, ap_uint<1> left_right,
+                             ap_uint<5> uniqueness, ap_uint<2> fuzzy, ap_uint<1> careful_fill);
+template <class Types>
+using adaptive_ca_top = void(hls::stream<typename Types::video_beat>& left,
+                             hls::stream<typename Types::video_beat>& right,
+                             hls::stream<typename Types::disparity_beat>& disparity, typename Types::width_t width,
+                             typename Types::height_t height, typename Types::levels_t levels, typename Types::t2_t t2,
+                             typename Types::t5_t t5, ap_uint<1> automaton, typename Types::ring_t ring);
 }  // namespace
 
 // The tops themselves, from hls/tops/*.cpp; tops that only the compiler calls need no declaration in a header.
-void color_fuzzy(hls::stream<color_fuzzy_types::video_beat>& left, hls::stream<color_fuzzy_types::video_beat>& right,
-                 hls::stream<color_fuzzy_types::disparity_beat>& disparity, color_fuzzy_types::width_t width,
-                 color_fuzzy_types::height_t height, color_fuzzy_types::levels_t levels, ap_uint<1> left_right,
-                 ap_uint<5> uniqueness, ap_uint<2> fuzzy, ap_uint<1> careful_fill);
-void adaptive_ca(hls::stream<adaptive_ca_types::video_beat>& left, hls::stream<adaptive_ca_types::video_beat>& right,
-                 hls::stream<adaptive_ca_types::disparity_beat>& disparity, adaptive_ca_types::width_t width,
-                 adaptive_ca_types::height_t height, adaptive_ca_types::levels_t levels, adaptive_ca_types::t2_t t2,
-                 adaptive_ca_types::t5_t t5, ap_uint<1> automaton, adaptive_ca_types::ring_t ring);
+color_fuzzy_top<color_fuzzy_types> color_fuzzy;
+color_fuzzy_top<color_fuzzy_p2_types> color_fuzzy_p2;
+adaptive_ca_top<adaptive_ca_types> adaptive_ca;
+adaptive_ca_top<adaptive_ca_p2_types> adaptive_ca_p2;
 
 namespace epiline::csim {
 namespace {
@@ -62,21 +75,33 @@ void add(eval::engine_registry& registry, const char* design, top_call<Types> ca
                 }});
 }
 
+template <class Config, color_fuzzy_top<tops::color_fuzzy_interface<Config>> Top>
+void add_color_fuzzy(eval::engine_registry& registry, const char* design) {
+  add<Config, tops::color_fuzzy_interface<Config>>(
+      registry, design, [](const eval::match_request& request, auto& left, auto& right, auto& disparity) {
+        const auto& with = request.parameters;
+        Top(left, right, disparity, request.left.width, request.left.height, request.levels, with.at("left_right"),
+            with.at("uniqueness"), with.at("fuzzy"), with.at("careful_fill"));
+      });
+}
+
+template <class Config, adaptive_ca_top<tops::adaptive_ca_interface<Config>> Top>
+void add_adaptive_ca(eval::engine_registry& registry, const char* design) {
+  add<Config, tops::adaptive_ca_interface<Config>>(
+      registry, design, [](const eval::match_request& request, auto& left, auto& right, auto& disparity) {
+        const auto& with = request.parameters;
+        Top(left, right, disparity, request.left.width, request.left.height, request.levels, with.at("t2"),
+            with.at("t5"), with.at("automaton"), with.at("ring"));
+      });
+}
+
 }  // namespace
 
 void register_engines(eval::engine_registry& registry) {
-  add<tops::color_fuzzy_config, color_fuzzy_types>(
-      registry, "color_fuzzy", [](const eval::match_request& request, auto& left, auto& right, auto& disparity) {
-        const auto& with = request.parameters;
-        color_fuzzy(left, right, disparity, request.left.width, request.left.height, request.levels,
-                    with.at("left_right"), with.at("uniqueness"), with.at("fuzzy"), with.at("careful_fill"));
-      });
-  add<tops::adaptive_ca_config, adaptive_ca_types>(
-      registry, "adaptive_ca", [](const eval::match_request& request, auto& left, auto& right, auto& disparity) {
-        const auto& with = request.parameters;
-        adaptive_ca(left, right, disparity, request.left.width, request.left.height, request.levels, with.at("t2"),
-                    with.at("t5"), with.at("automaton"), with.at("ring"));
-      });
+  add_color_fuzzy<tops::color_fuzzy_config, color_fuzzy>(registry, "color_fuzzy");
+  add_adaptive_ca<tops::adaptive_ca_config, adaptive_ca>(registry, "adaptive_ca");
+  add_color_fuzzy<color_fuzzy_p2_config, color_fuzzy_p2>(registry, "color_fuzzy_p2");
+  add_adaptive_ca<adaptive_ca_p2_config, adaptive_ca_p2>(registry, "adaptive_ca_p2");
 }
 
 }  // namespace epiline::csim

@@ -30,6 +30,7 @@ struct design_description {
   int default_levels;
   int pixels_per_beat;  // of the top the engines run
   std::span<const parameter_description> parameters;
+  std::string_view same_maps_as = {};  // the design this one is only another speed of; empty: a method of its own
 };
 
 using parameter_values = std::map<std::string, int, std::less<>>;

@@ -38,7 +38,9 @@ std::vector<report::method> methods_of(const evaluate_options& options, const en
   if (options.designs == std::vector<std::string>{"all"}) {
     std::vector<std::string_view> without;
     std::vector<std::string_view> names;
-    for (const auto& design : all_designs()) names.push_back(design.name);
+    for (const auto& design : all_designs()) {
+      if (design.same_maps_as.empty()) names.push_back(design.name);
+    }
     std::ranges::sort(names);  // which is the order of the methods' numbers
     for (const auto name : names) {
       if (const auto* engine = registry.find(name, options.engine)) {

@@ -70,8 +70,8 @@ void register_engines(eval::engine_registry& registry) {
     registry.add({design, "golden", "reference model, whole image, written from the equations",
                   [model](const eval::design_description&) { return std::make_unique<golden_engine>(model); }});
   };
-  add("color_fuzzy", run_color_fuzzy);
-  add("adaptive_ca", run_adaptive_ca);
+  for (const char* design : {"color_fuzzy", "color_fuzzy_p2"}) add(design, run_color_fuzzy);
+  for (const char* design : {"adaptive_ca", "adaptive_ca_p2"}) add(design, run_adaptive_ca);
 }
 
 }  // namespace epiline::golden

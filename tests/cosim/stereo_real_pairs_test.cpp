@@ -40,11 +40,12 @@ class real_pair : public testing::TestWithParam<const char*> {
     return {image.width, image.height, image.pixels};
   }
 
-  [[nodiscard]] eval::match_result run(const char* engine, const eval::run_options& options) const {
+  [[nodiscard]] eval::match_result run(const std::string& name, const char* engine,
+                                       const eval::run_options& options) const {
     eval::engine_registry registry;
     register_engines(registry);
-    const eval::design_description& design = *eval::find_design(Method::name);
-    return registry.find(Method::name, engine)->make(design)->match(request_of<Method>(pair_, with_), options);
+    const eval::design_description& design = *eval::find_design(name);
+    return registry.find(name, engine)->make(design)->match(request_of<Method>(pair_, with_), options);
   }
 
   void expect_same_at_every_level() const {
@@ -54,10 +55,12 @@ class real_pair : public testing::TestWithParam<const char*> {
     options.seed = 7;
     options.input_gap_percent = 25;
     options.output_stall_percent = 25;
-    EXPECT_TRUE(same_maps(run("rtl", options).map, golden)) << "rtl, seed 7";
-    EXPECT_TRUE(same_maps(run("graph", {}).map, golden)) << "graph";
+    EXPECT_TRUE(same_maps(run(Method::name, "rtl", options).map, golden)) << "rtl, seed 7";
+    EXPECT_TRUE(same_maps(run(Method::name, "graph", {}).map, golden)) << "graph";
+    EXPECT_TRUE(same_maps(run(two_pixels, "rtl", options).map, golden)) << two_pixels << " rtl, seed 7";
   }
 
+  static inline const std::string two_pixels = std::string(Method::name) + "_p2";
   test::stereo_pair pair_;
   typename Method::settings with_;
 };

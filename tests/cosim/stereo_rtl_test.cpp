@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include "adaptive_ca_p2_rtl_model.hpp"
 #include "adaptive_ca_rtl_model.hpp"
+#include "adaptive_ca_small_p2_rtl_model.hpp"
 #include "adaptive_ca_small_rtl_model.hpp"
 #include "color_fuzzy_p2_rtl_model.hpp"
 #include "color_fuzzy_rtl_model.hpp"
+#include "color_fuzzy_small_p2_rtl_model.hpp"
 #include "color_fuzzy_small_rtl_model.hpp"
 #include "cosim/engines.hpp"
 #include "frame_bench.hpp"
@@ -22,9 +25,7 @@ struct color_fuzzy_full {
 };
 struct color_fuzzy_two_pixels {
   using method = color_fuzzy_method;
-  struct config : tops::color_fuzzy_config {
-    static constexpr int pixels_per_beat = 2;
-  };
+  using config = tops::two_pixels_a_beat_of<tops::color_fuzzy_config>;
   static constexpr const char* graph = COLOR_FUZZY_P2_GRAPH;
   static auto make(std::uint64_t seed) { return make_color_fuzzy_p2_rtl_model(seed); }
 };
@@ -34,17 +35,35 @@ struct color_fuzzy_few_levels {
   static constexpr const char* graph = COLOR_FUZZY_SMALL_GRAPH;
   static auto make(std::uint64_t seed) { return make_color_fuzzy_small_rtl_model(seed); }
 };
+struct color_fuzzy_few_levels_two_pixels {
+  using method = color_fuzzy_method;
+  using config = tops::two_pixels_a_beat_of<tops::few_levels_of<tops::color_fuzzy_config>>;
+  static constexpr const char* graph = COLOR_FUZZY_SMALL_P2_GRAPH;
+  static auto make(std::uint64_t seed) { return make_color_fuzzy_small_p2_rtl_model(seed); }
+};
 struct adaptive_ca_full {
   using method = adaptive_ca_method;
   using config = method::config;
   static constexpr const char* graph = ADAPTIVE_CA_GRAPH;
   static auto make(std::uint64_t seed) { return make_adaptive_ca_rtl_model(seed); }
 };
+struct adaptive_ca_two_pixels {
+  using method = adaptive_ca_method;
+  using config = tops::two_pixels_a_beat_of<tops::adaptive_ca_config>;
+  static constexpr const char* graph = ADAPTIVE_CA_P2_GRAPH;
+  static auto make(std::uint64_t seed) { return make_adaptive_ca_p2_rtl_model(seed); }
+};
 struct adaptive_ca_few_levels {
   using method = adaptive_ca_method;
   using config = tops::few_levels_of<tops::adaptive_ca_config>;
   static constexpr const char* graph = ADAPTIVE_CA_SMALL_GRAPH;
   static auto make(std::uint64_t seed) { return make_adaptive_ca_small_rtl_model(seed); }
+};
+struct adaptive_ca_few_levels_two_pixels {
+  using method = adaptive_ca_method;
+  using config = tops::two_pixels_a_beat_of<tops::few_levels_of<tops::adaptive_ca_config>>;
+  static constexpr const char* graph = ADAPTIVE_CA_SMALL_P2_GRAPH;
+  static auto make(std::uint64_t seed) { return make_adaptive_ca_small_p2_rtl_model(seed); }
 };
 
 template <class Design>
@@ -60,8 +79,10 @@ class stereo_rtl : public testing::Test {
   }
 };
 
-using designs = testing::Types<color_fuzzy_full, color_fuzzy_two_pixels, color_fuzzy_few_levels, adaptive_ca_full,
-                               adaptive_ca_few_levels>;
+// With two pixels a beat the small configurations stand for the full ones, which take long: those meet scenes and real
+// pairs.
+using designs = testing::Types<color_fuzzy_full, color_fuzzy_few_levels, color_fuzzy_few_levels_two_pixels,
+                               adaptive_ca_full, adaptive_ca_few_levels, adaptive_ca_few_levels_two_pixels>;
 TYPED_TEST_SUITE(stereo_rtl, designs);
 
 TYPED_TEST(stereo_rtl, random_frames_are_the_same_at_every_level) {
@@ -169,6 +190,9 @@ TEST(color_fuzzy_80_levels, the_widest_row_fits) { expect_scene_at_every_level<c
 TEST(adaptive_ca_80_levels, a_scene_is_the_same_at_every_level) {
   expect_scene_at_every_level<adaptive_ca_full>(320, 96);
 }
+TEST(adaptive_ca_80_levels, a_scene_is_the_same_with_two_pixels_a_beat) {
+  expect_scene_at_every_level<adaptive_ca_two_pixels>(319, 64);
+}
 TEST(adaptive_ca_80_levels, the_widest_row_fits) { expect_scene_at_every_level<adaptive_ca_full>(1024, 9); }
 
 /// Clocks from the end of one frame to the end of the next of the same size, without stalls.
@@ -201,6 +225,9 @@ TEST(color_fuzzy_cycles, a_frame_of_640x480_with_two_pixels_a_beat) {
 
 /// Method 1's result lies 7 rows below its newest pixel: smaller frames take relatively more.
 TEST(adaptive_ca_cycles, a_frame_of_640x480) { expect_few_clocks<adaptive_ca_full>(640, 480); }
+TEST(adaptive_ca_cycles, a_frame_of_640x480_with_two_pixels_a_beat) {
+  expect_few_clocks<adaptive_ca_two_pixels>(640, 480);
+}
 
 }  // namespace
 }  // namespace epiline::cosim

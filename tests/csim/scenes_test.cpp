@@ -56,7 +56,8 @@ TEST_P(every_design, equals_its_reference_model_on_the_discriminating_set) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(designs, every_design, testing::Values("color_fuzzy", "adaptive_ca"),
+INSTANTIATE_TEST_SUITE_P(designs, every_design,
+                         testing::Values("color_fuzzy", "adaptive_ca", "color_fuzzy_p2", "adaptive_ca_p2"),
                          [](const auto& test) { return test.param; });
 
 }  // namespace

@@ -47,6 +47,18 @@ TEST(designs, adaptive_ca_has_the_documented_parameters) {
   EXPECT_EQ(find_parameter(*design, "ring")->maximum, 40);
 }
 
+TEST(designs, that_are_other_speeds_name_the_design_whose_maps_and_parameters_they_have) {
+  for (const auto& design : all_designs()) {
+    if (design.same_maps_as.empty()) continue;
+    const auto* same = find_design(design.same_maps_as);
+    ASSERT_NE(same, nullptr) << design.name;
+    EXPECT_TRUE(same->same_maps_as.empty()) << design.name;
+    EXPECT_EQ(default_parameters(design), default_parameters(*same)) << design.name;
+    EXPECT_NE(design.pixels_per_beat, same->pixels_per_beat) << design.name;
+  }
+  EXPECT_EQ(find_design("adaptive_ca_p2")->same_maps_as, "adaptive_ca");
+}
+
 TEST(closest_name, suggests_a_slip_of_the_finger_only) {
   const std::string_view known[] = {"golden", "native", "rtl"};
   EXPECT_EQ(closest_name("natve", known), "native");

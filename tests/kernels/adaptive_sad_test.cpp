@@ -36,7 +36,7 @@ TYPED_TEST(adaptive_sad_of, equals_brute_force_for_every_candidate_and_window) {
     const int height = 1 + static_cast<int>(random() % 16);
     const test::stereo_pair pair = test::random_pair(random, width, height, 5, 30);
     const int beats = (width + lanes - 1) / lanes;
-    const int row_beats = std::max(beats + sad::delay_beats, 8);
+    const int row_beats = std::max(beats + (sad::delay_columns + lanes - 1) / lanes, 8);
     for (int row = 0; row < height + radius; ++row) {
       for (int beat = 0; beat < row_beats; ++beat) {
         ap_uint<24 * lanes> left = 0;
@@ -63,7 +63,7 @@ TYPED_TEST(adaptive_sad_of, equals_brute_force_for_every_candidate_and_window) {
         const auto columns = lines->step(left, right, beat, beat < beats);
         const auto costs = matcher->step(columns.left, columns.right, at, choice);
         for (int lane = 0; lane < lanes; ++lane) {
-          const int x = (beat - sad::delay_beats) * lanes + lane;
+          const int x = beat * lanes + lane - sad::delay_columns;
           const int y = row - radius;
           if (x < 0 || x >= width || y < 0) continue;
           for (int d = 0; d <= std::min(x, TypeParam::levels - 1); ++d) {

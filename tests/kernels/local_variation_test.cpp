@@ -28,12 +28,12 @@ struct config {
 /// Calls `body(kernel, lane, x, y)` for every pixel of the picture, when the kernel stands there.
 template <int Lanes, class Body>
 void walk(const test::picture& left, Body body) {
-  constexpr int delay_beats = Lanes == 1 ? 3 : 2;
-  using kernel_t = local_variation<config<Lanes>, delay_beats>;
+  constexpr int delay_columns = 3;
+  using kernel_t = local_variation<config<Lanes>, delay_columns>;
   const auto kernel = std::make_unique<kernel_t>();
   const int beats = (left.width + Lanes - 1) / Lanes;
   for (int y = 0; y < left.height; ++y) {
-    for (int beat = 0; beat < beats + delay_beats; ++beat) {
+    for (int beat = 0; beat < beats + delay_columns; ++beat) {
       typename kernel_t::place at;
       luma_t newest[kernel_t::rows][Lanes];
       for (int row = 0; row < kernel_t::rows; ++row) {
@@ -49,7 +49,7 @@ void walk(const test::picture& left, Body body) {
       at.row_starts = beat == 0;
       kernel->step(newest, at);
       for (int lane = 0; lane < Lanes; ++lane) {
-        const int x = (beat - delay_beats) * Lanes + lane;
+        const int x = beat * Lanes + lane - delay_columns;
         if (x >= 0 && x < left.width) body(*kernel, lane, x, y);
       }
     }

@@ -1,0 +1,15 @@
+// Method 2 for quick experiments with two pixels a beat: 8 levels, rows of up to 64 pixels.
+#include "tops/color_fuzzy.hpp"
+
+namespace {
+using config = epiline::tops::two_pixels_a_beat_of<epiline::tops::few_levels_of<epiline::tops::color_fuzzy_config>>;
+using types = epiline::tops::color_fuzzy_interface<config>;
+}  // namespace
+
+void color_fuzzy_small_p2(hls::stream<types::video_beat>& left, hls::stream<types::video_beat>& right,
+                          hls::stream<types::disparity_beat>& disparity, types::width_t width, types::height_t height,
+                          types::levels_t levels, ap_uint<1> left_right, ap_uint<5> uniqueness, ap_uint<2> fuzzy,
+                          ap_uint<1> careful_fill) {
+  epiline::tops::color_fuzzy_frame<config>(left, right, disparity, width, height, levels, left_right, uniqueness, fuzzy,
+                                           careful_fill);
+}
