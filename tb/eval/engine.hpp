@@ -27,9 +27,12 @@ struct match_request {
 
 /// How to run, without influence on the map (an engine to which an entry means nothing ignores it).
 struct run_options {
-  std::uint64_t seed = 1;        // of random gaps and back-pressure
-  int input_gap_percent = 0;     // 0..95: chance a clock that an input withholds its beat, each input on its own
-  int output_stall_percent = 0;  // 0..95: chance a clock that the output is not ready
+  std::uint64_t seed = 1;            // of random gaps and back-pressure
+  int input_gap_percent = 0;         // 0..95: chance a clock that an input withholds its beat, each input on its own
+  int output_stall_percent = 0;      // 0..95: chance a clock that the output is not ready
+  std::string port;                  // of the board: a serial port
+  int baud = 3'000'000;              // its rate, bits/s
+  int patience_milliseconds = 5000;  // how long a board may say nothing
   /// Called now and then with the share done, 0..1; empty: nobody wants to know.
   std::function<void(double)> progress;
 };
@@ -39,6 +42,7 @@ struct match_result {
   double seconds = 0;                   // of the engine's own work, file input and output not counted
   std::optional<std::uint64_t> cycles;  // clocks from the first input beat to the last output beat; rtl and netlist
   std::optional<double> build_seconds;  // of a simulation model built for this run
+  std::string note;                     // a line for people about how it went; may be empty
 };
 
 /// Everything that went wrong in words for the user: what, where, and what to do.

@@ -16,6 +16,8 @@ std::string suggestion(std::string_view name, const std::vector<std::string_view
   return closest.empty() ? "" : fmt::format(" (did you mean {}?)", closest);
 }
 
+}  // namespace
+
 void apply_setting(match_request& request, const std::string& setting) {
   const std::size_t equals = setting.find('=');
   if (equals == std::string::npos || equals == 0) {
@@ -29,6 +31,8 @@ void apply_setting(match_request& request, const std::string& setting) {
   }
   request.parameters[setting.substr(0, equals)] = value;
 }
+
+namespace {
 
 void check_outputs(const job_options& options) {
   if (!options.output.empty()) require_map_extension(options.output);
@@ -111,6 +115,13 @@ void job_options::add_to(CLI::App& command) {
                   "rtl, netlist: chance in per cent, 0 to 95, that the output waits in a clock (default 0)")
       ->option_text("PERCENT")
       ->check(CLI::Range(0, 95));
+  command.add_option("--port", run.port, "board: its serial port, for example /dev/ttyUSB0")->option_text("PORT");
+  command.add_option("--baud", run.baud, "board: rate of the serial port (default 3000000)")->option_text("N");
+  command
+      .add_option("--patience", run.patience_milliseconds,
+                  "board: milliseconds that it may say nothing before that is an error (default 5000)")
+      ->option_text("N")
+      ->check(CLI::Range(100, 600'000));
   command.add_flag("--list", list, "list designs, their parameters and engines, and stop");
 }
 
@@ -216,6 +227,7 @@ std::string timing_text(const frame_job& job, const match_result& result) {
     text += ")";
   }
   if (result.build_seconds) text += fmt::format(", model built in {:.1f} s", *result.build_seconds);
+  if (!result.note.empty()) text += fmt::format(" ({})", result.note);
   return text;
 }
 

@@ -55,6 +55,9 @@ struct frame_job {
 /// The design of that name, or usage_error naming the known ones.
 [[nodiscard]] const design_description& require_design(std::string_view name);
 
+/// One --set NAME=VALUE into the request's parameters, not yet checked against the design. Throws usage_error.
+void apply_setting(match_request& request, const std::string& setting);
+
 /// Checks everything that can be checked (names, ranges, output paths, then the images, truth and masks) and reads the
 /// inputs. Throws usage_error, file_error or engine_error.
 [[nodiscard]] frame_job prepare(const job_options& options);

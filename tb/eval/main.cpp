@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "board/commands.hpp"
+#include "board/engines.hpp"
 #ifdef EPILINE_HAS_COSIM
 #include "cosim/engines.hpp"
 #endif
@@ -48,6 +50,7 @@ int main(int argc, char** argv) {
 #ifdef EPILINE_HAS_COSIM
     epiline::cosim::register_engines(registry);
 #endif
+    epiline::board::register_engines(registry);
 
     CLI::App application{"Epiline: stereo matching with one C++ source, natively and as hardware", "epiline"};
     application.set_version_flag("--version", EPILINE_VERSION);
@@ -57,6 +60,7 @@ int main(int argc, char** argv) {
     epiline::eval::add_compare_command(application, registry, exit_code);
     epiline::eval::add_evaluate_command(application, registry, exit_code);
     epiline::eval::add_scene_command(application);
+    epiline::board::add_board_command(application, registry, exit_code);
     try {
       if (argc > 1 && argv[1][0] != '-') require_known_subcommand(application, argv[1]);
       application.parse(argc, argv);
