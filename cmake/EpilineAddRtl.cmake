@@ -11,6 +11,9 @@
 #   Runs Verilator and compiles the model. TARGET is a static library; "TARGET_model.hpp" declares
 #   epiline::cosim::make_TARGET_model(seed). REPORT's key "interface" names the ports. Verilator's warnings are errors, unless NO_LINT.
 #
+# epiline_verilate(TARGET TOP module VERILOG file.v.. [DEPENDS ..] [OPTIONS ..] [NO_LINT])
+#   The first half of the above: the command that makes <binary dir>/TARGET.model/VTARGET__ALL.a and VTARGET.h.
+#
 # epiline_add_netlist_model(TARGET TOP module VERILOG file.v REPORT report.json [DEPENDS ..])
 #   Synthesizes the Verilog for ECP5 with scripts/synthesize.sh into <binary dir>/TARGET.netlist and makes a model of the
 #   netlist, like epiline_add_verilog_model. The folder is TARGET's property EPILINE_NETLIST_FOLDER.
@@ -57,12 +60,11 @@ macro(epiline_check_arguments)
   endif()
 endmacro()
 
-function(epiline_add_verilog_model target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "NO_LINT" "TOP;REPORT" "VERILOG;DEPENDS")
-  epiline_check_arguments(TOP REPORT VERILOG)
+function(epiline_verilate target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "NO_LINT" "TOP" "VERILOG;DEPENDS;OPTIONS")
+  epiline_check_arguments(TOP VERILOG)
 
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}.model)
-  set(make_model ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../tb/cosim/make_model.py)
   set(lint)
   if(arg_NO_LINT)
     set(lint -Wno-fatal -Wno-lint)
@@ -74,7 +76,7 @@ function(epiline_add_verilog_model target)
     BYPRODUCTS ${folder}/V${target}.h
     COMMAND ${CMAKE_COMMAND} -E rm -rf ${folder}
     COMMAND ${EPILINE_VERILATOR} --cc --quiet-exit --no-timing -O3 --x-assign fast --x-initial unique --noassert
-            --output-split 8000 --output-split-cfuncs 500 -Wno-UNOPTFLAT ${lint}
+            --output-split 8000 --output-split-cfuncs 500 -Wno-UNOPTFLAT ${lint} ${arg_OPTIONS}
             --top-module ${arg_TOP} --prefix V${target} --Mdir ${folder} ${arg_VERILOG}
     COMMAND ${EPILINE_MAKE} --silent -C ${folder} -f V${target}.mk -j2 V${target}__ALL.a
             CXX=${CMAKE_CXX_COMPILER} AR=${CMAKE_AR} VM_PARALLEL_BUILDS=1 CFG_CXXFLAGS_STD=-std=c++20
@@ -82,6 +84,23 @@ function(epiline_add_verilog_model target)
     DEPENDS ${arg_VERILOG} ${arg_DEPENDS}
     COMMENT "Verilating ${target}"
     VERBATIM)
+endfunction()
+
+function(epiline_add_verilog_model target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "NO_LINT" "TOP;REPORT" "VERILOG;DEPENDS")
+  epiline_check_arguments(TOP REPORT VERILOG)
+
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}.model)
+  set(archive ${folder}/V${target}__ALL.a)
+  set(make_model ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../tb/cosim/make_model.py)
+  set(more)
+  if(arg_NO_LINT)
+    list(APPEND more NO_LINT)
+  endif()
+  if(arg_DEPENDS)
+    list(APPEND more DEPENDS ${arg_DEPENDS})
+  endif()
+  epiline_verilate(${target} TOP ${arg_TOP} VERILOG ${arg_VERILOG} ${more})
   add_custom_command(
     OUTPUT ${folder}.binding/${target}_model.cpp ${folder}.binding/${target}_model.hpp
     COMMAND ${EPILINE_PYTHON} ${make_model} ${arg_REPORT} ${target} ${folder}.binding
