@@ -21,11 +21,12 @@ using testing::Not;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// The methods of every design and OpenCV's.
+/// The methods of every design with maps of its own and OpenCV's.
 std::vector<method> every_method() {
   static const eval::engine_registry::entry engine{"", "native", "", nullptr};
   std::vector<method> methods;
   for (const auto& design : eval::all_designs()) {
+    if (!design.same_maps_as.empty()) continue;
     for (auto& each : methods_of(design, engine)) methods.push_back(std::move(each));
   }
   for (auto& each : opencv_methods()) methods.push_back(std::move(each));
