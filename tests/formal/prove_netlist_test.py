@@ -58,7 +58,7 @@ faults = [
     ("a LUT of another function", r"(LUT4 #\(\s*\.INIT\(16'h)([0-9a-f]{4})", inverted),
     ("a carry cell of another function", r"(CCU2C #\((?:[^;](?!LUT4))*?\.INIT1\(16'h)([0-9a-f]{4})", inverted),
     ("a flip-flop without its enable", r"\.CE\((?!1'h)[^)]*\)", ".CE(1'h1)"),
-    ("a flip-flop set by what clears it", r'\.REGSET\("RESET"\)', '.REGSET("SET")'),
+    ("a flip-flop set by what clears it", r'\.REGSET\("RESET"\)([^;]*\.LSR\(rst\))', r'.REGSET("SET")\1'),
 ]
 
 
