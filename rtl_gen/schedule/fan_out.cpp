@@ -92,10 +92,15 @@ std::vector<load> find_loads(const graph& g, const delay_model& model) {
   return all;
 }
 
+std::vector<double> count_readers(const graph& g, const delay_model& model) {
+  std::vector<double> inputs(g.nodes.size(), 0);
+  for (const load& l : find_loads(g, model)) inputs[l.value] += l.inputs;
+  return inputs;
+}
+
 std::vector<double> find_spread(const graph& g, const delay_model& model) {
   const delay_parameters& p = model.parameters();
-  std::vector<double> loads(g.nodes.size(), 0);
-  for (const load& l : find_loads(g, model)) loads[l.value] += l.inputs;
+  const std::vector<double> loads = count_readers(g, model);
   std::vector<double> spread(g.nodes.size(), 0);
   for (node_id id = 0; id < g.nodes.size(); ++id) {
     // Wires add nothing: the value behind them has the load already. A register's value comes from copies.

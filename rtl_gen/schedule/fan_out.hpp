@@ -23,6 +23,9 @@ struct load {
 /// an extension) loads the wire's operand, too.
 [[nodiscard]] std::vector<load> find_loads(const dataflow::graph& g, const delay_model& model);
 
+/// Per node: the inputs that one bit of its result drives.
+[[nodiscard]] std::vector<double> count_readers(const dataflow::graph& g, const delay_model& model);
+
 /// Per node: nanoseconds by which its many readers delay its result beyond the wire that delay() counts, where no
 /// register, of which there may be copies, stands between.
 [[nodiscard]] std::vector<double> find_spread(const dataflow::graph& g, const delay_model& model);

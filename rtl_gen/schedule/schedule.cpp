@@ -160,6 +160,10 @@ class problem {
   node_id add_chains(double period, double calm, const std::vector<std::uint32_t>& component,
                      std::vector<constraint>& constraints) const;
 
+  /// What very many read, outside recurrences, is in a flip-flop for a clock before its readers' copies of it take it
+  /// over: the way to all of them is as long as the design is wide.
+  void add_distribution(const std::vector<std::uint32_t>& component, std::vector<constraint>& constraints) const;
+
   /// All rules but those of the period. `apart`: a memory's writes come a stage after its reads where possible.
   void add_order(int interval, bool apart, std::vector<constraint>& constraints) const;
 
@@ -398,6 +402,20 @@ node_id problem::add_chains(double period, double calm, const std::vector<std::u
     for (const variable v : touched) arrival[v] = -1;
   }
   return none;
+}
+
+void problem::add_distribution(const std::vector<std::uint32_t>& component,
+                               std::vector<constraint>& constraints) const {
+  const std::vector<double> readers = count_readers(g_, model_);
+  const double many = 2.0 * model_.parameters().most_readers;
+  for (node_id id = 0; id < g_.nodes.size(); ++id) {
+    if (settled_[id] || many == 0 || readers[id] < many || is_wire(g_, id) || latency_[id] > 0) continue;
+    for (const way& w : ways_[id]) {
+      if (w.to != 0 && component[w.to] != component[of_node(id)]) {
+        constraints.push_back({of_node(id), w.to, 2, reason::order});
+      }
+    }
+  }
 }
 
 double problem::trace(node_id from, variable to, std::vector<chain_link>& chain) const {
@@ -677,6 +695,7 @@ attempt try_once(const graph& g, const delay_model& model, const problem& p, dou
   const std::vector<std::uint32_t> component = a.system.component;
   a.too_slow = p.add_chains(period, period * model.parameters().calm_share, component, a.system.constraints);
   if (a.too_slow != none) return a;
+  p.add_distribution(component, a.system.constraints);
   a.system.build(p.count());
   a.stage = a.system.earliest(p.count(), a.cycle);
   return a;
