@@ -3,6 +3,7 @@
 
 #include <type_traits>
 
+#include "kernels/level_groups.hpp"
 #include "kernels/local_variation.hpp"
 #include "kernels/luma.hpp"
 #include "kernels/nested_column_sum.hpp"
@@ -18,14 +19,14 @@ namespace epiline::kernels {
 ///
 /// Border policy: pixels outside the frame contribute 0. Costs of candidates d > x are meaningless, they must not win.
 /// Lane l of the result belongs to the pixel `window_radius` rows above and `delay_columns` columns left of lane l of
-/// the newest beat.
+/// the newest beat. Its levels are those of the iteration's group; all groups of a beat are given the same pixels.
 ///
-/// Config: levels, pixels_per_beat, max_width.
+/// Config: levels, parallel_disparities, pixels_per_beat, max_width.
 template <class Config>
 class adaptive_sad {
  public:
   static constexpr int lanes = Config::pixels_per_beat;
-  static constexpr int levels = Config::levels;
+  static constexpr int levels = level_groups<Config>::size;  // of a group
   static constexpr int window_radius = 3;
   static constexpr int window_rows = 2 * window_radius + 1;
   /// A beat more than the window needs: columns are summed up a beat after they were made, out of registers, and that
@@ -52,6 +53,7 @@ class adaptive_sad {
     typename nested_column_sum<Config>::place column;
     bool row_starts;           // the first beat of a row
     bool row_in[window_rows];  // [k]: the row k above the newest one is not above the frame
+    level_group<Config> group;
   };
 
   /// `left`, `right`: rows of the newest columns as of luma_rows; `choice[l]`: the window of the pixel lane l of the
@@ -59,9 +61,9 @@ class adaptive_sad {
   costs step(const luma_t (&left)[window_rows][lanes], const luma_t (&right)[window_rows][lanes], const place& at,
              const window_choice_t (&choice)[lanes]) {
 #pragma HLS INLINE
-    const auto columns =
-        columns_.step(differences(0, left, right, at, row0_), differences(1, left, right, at, row1_),
-                      differences(5, left, right, at, row5_), differences(6, left, right, at, row6_), at.column);
+    const auto columns = columns_.step(differences(0, left, right, at, row0_), differences(1, left, right, at, row1_),
+                                       differences(5, left, right, at, row5_), differences(6, left, right, at, row6_),
+                                       at.column, at.group);
     const auto three = rows3_.step(columns.three);
     const auto five = rows5_.step(columns.five);
     const auto seven = rows7_.step(columns.seven);
@@ -82,7 +84,8 @@ class adaptive_sad {
  private:
   // The newest right pixels of a row. A column right of the window's centre reaches `window_radius` pixels further left
   // than the centre's candidates do.
-  using taps = window::row_window<luma_t, lanes, lanes - 1 + levels, window::replicated_border<window_radius>>;
+  using taps = window::row_window<luma_t, lanes, lanes - 1 + levels, window::replicated_border<window_radius>,
+                                  level_groups<Config>::count>;
   using rows_t = luma_t[window_rows][lanes];
 
   /// One pixel a beat: a running sum takes the fewest adders. More: pairs do.
@@ -115,7 +118,7 @@ class adaptive_sad {
       left_pixels[lane] = at.row_in[k] ? left[k][lane] : luma_t(0);
       right_pixels[lane] = at.row_in[k] ? right[k][lane] : luma_t(0);
     }
-    history.step(right_pixels, at.row_starts);
+    history.step(right_pixels, at.row_starts, at.group.index());
     typename nested_column_sum<Config>::differences result;
     for (int lane = 0; lane < lanes; ++lane) {
       for (int d = 0; d < levels; ++d) {

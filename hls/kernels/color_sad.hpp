@@ -25,7 +25,7 @@ struct color_window {
 /// Lane l of the result belongs to the pixel `window_radius` rows above and `delay_beats` beats before the newest one.
 /// Its levels are those of the iteration's group; the beat's pixels wait for the further groups.
 ///
-/// Config: levels, parallel_disparities, pixels_per_beat, max_width, window_radius.
+/// Config: levels, parallel_disparities, pixels_per_beat, max_width, window_radius, row_memory.
 template <class Config>
 class color_sad {
   using columns = column_sum<Config, color_window<Config>>;
@@ -54,11 +54,10 @@ class color_sad {
     if (at.group.first()) {
       pixels_ = {left, right, 0, 0};
       if (at.column.in_columns) {
-        const auto left_above = left_rows_.step(left, at.column.beat);
-        const auto right_above = right_rows_.step(right, at.column.beat);
+        const beat_pair above = rows_above_.step({left, right}, at.column.beat, at.row_starts);
         if (at.row_can_leave) {
-          pixels_.oldest_left = left_above.rows[window_rows - 1];
-          pixels_.oldest_right = right_above.rows[window_rows - 1];
+          pixels_.oldest_left = above.left;
+          pixels_.oldest_right = above.right;
         }
       }
     }
@@ -101,8 +100,11 @@ class color_sad {
     return result;
   }
 
-  window::line_buffer<beat_t, window_rows, max_beats> left_rows_;
-  window::line_buffer<beat_t, window_rows, max_beats> right_rows_;
+  struct beat_pair {
+    beat_t left;
+    beat_t right;
+  };
+  window::row_delay<beat_pair, window_rows, max_beats, Config::row_memory> rows_above_;
   beat_pixels pixels_;
   taps entering_right_;
   taps leaving_right_;

@@ -3,6 +3,7 @@
 
 #include "kernels/color.hpp"
 #include "kernels/level_array.hpp"
+#include "kernels/level_groups.hpp"
 #include "window/bits.hpp"
 #include "window/line_buffer.hpp"
 
@@ -17,12 +18,13 @@ namespace epiline::kernels {
 /// Border policy: columns outside the frame are 0. Rows outside are 0 because the caller passes differences of 0 there.
 /// State: the RAM. The first row of a frame does not use it, so it needs no clearing.
 ///
-/// Config: levels, pixels_per_beat, max_width.
+/// Config: levels, parallel_disparities, pixels_per_beat, max_width.
 template <class Config>
 class nested_column_sum {
  public:
   static constexpr int lanes = Config::pixels_per_beat;
-  static constexpr int levels = Config::levels;
+  static constexpr int groups = level_groups<Config>::count;
+  static constexpr int levels = level_groups<Config>::size;  // of a group
   static constexpr int beats = window::divide_up(Config::max_width, lanes);
   using differences = level_array<absolute_difference_t, lanes, levels>;
   template <int Rows>
@@ -44,17 +46,17 @@ class nested_column_sum {
   /// `row0` belongs to the newest row, `row1`, `row5` and `row6` to those so many rows above it.
   /// The same beat may come again after `shortest_row` iterations at the earliest.
   result step(const differences& row0, const differences& row1, const differences& row5, const differences& row6,
-              const place& at) {
+              const place& at, const level_group<Config>& group) {
 #pragma HLS INLINE
 #pragma HLS DEPENDENCE variable = four_ type = inter distance = window::shortest_row true
     result columns;
     for (int lane = 0; lane < lanes; ++lane) {
-      const int beat = at.beat;
+      const int word = at.beat * groups + int(group.index());
       const bool lane_in = at.lane_in[lane];
       four_t four[levels];
       for (int d = 0; d < levels; ++d) four[d] = 0;
       if (at.in_columns && !at.first_row) {
-        for (int d = 0; d < levels; ++d) four[d] = four_[beat][lane][d];
+        for (int d = 0; d < levels; ++d) four[d] = four_[word][lane][d];
       }
       for (int d = 0; d < levels; ++d) {
         const ap_uint<10> three = four[d] - row5.at[lane][d];
@@ -67,7 +69,7 @@ class nested_column_sum {
         columns.seven.at[lane][d] = lane_in ? seven : ap_uint<11>(0);
       }
       if (at.in_columns) {
-        for (int d = 0; d < levels; ++d) four_[beat][lane][d] = four[d];
+        for (int d = 0; d < levels; ++d) four_[word][lane][d] = four[d];
       }
     }
     return columns;
@@ -75,7 +77,7 @@ class nested_column_sum {
 
  private:
   using four_t = ap_uint<window::bits_for(4 * 255)>;
-  four_t four_[beats][lanes][levels];
+  four_t four_[beats * groups][lanes][levels];
 };
 
 }  // namespace epiline::kernels

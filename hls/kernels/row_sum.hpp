@@ -2,6 +2,7 @@
 #include <ap_int.h>
 
 #include "kernels/level_array.hpp"
+#include "kernels/level_delay.hpp"
 #include "kernels/level_groups.hpp"
 #include "window/bits.hpp"
 
@@ -16,7 +17,8 @@ namespace epiline::kernels {
 /// Border policy: outside columns are 0, which the caller provides by at least r columns of 0 between two rows.
 /// State: the columns that are still inside the window or wait to leave it, and the running sum. Invariant: the sum
 /// equals the sum of its columns. It holds at zero and no step breaks it, so nothing is to be reset between rows or
-/// frames; an object must start zeroed (static, or T{}).
+/// frames; an object must start zeroed (static, or T{}). With several groups of levels the columns wait so long that
+/// RAM may take them (level_delay).
 ///
 /// Config: levels, parallel_disparities, pixels_per_beat. Window: radius, largest_difference of two pixels, delay_beats
 /// (at least the beats of the radius; more of them line the result up with that of a wider window).
@@ -37,6 +39,10 @@ class row_sum {
 
   costs step(const column_beat& newest) {
 #pragma HLS INLINE
+    if constexpr (groups > 1) {  // one lane
+      entering_ = waiting_.step(newest);
+      leaving_ = inside_.step(newest);
+    }
     costs result;
     change_t change[levels];
     for (int d = 0; d < levels; ++d) change[d] = 0;
@@ -51,11 +57,13 @@ class row_sum {
     move_groups_on(sum_);
     for (int d = 0; d < levels; ++d) sum_[0][d] = result.at[lanes - 1][d];
 
-    for (int k = history - 1; k >= lanes; --k) {
-      for (int d = 0; d < levels; ++d) columns_[k][d] = columns_[k - lanes][d];
-    }
-    for (int lane = 0; lane < lanes; ++lane) {
-      for (int d = 0; d < levels; ++d) columns_[lanes - 1 - lane][d] = newest.at[lane][d];
+    if constexpr (groups == 1) {
+      for (int k = history - 1; k >= lanes; --k) {
+        for (int d = 0; d < levels; ++d) columns_[k][d] = columns_[k - lanes][d];
+      }
+      for (int lane = 0; lane < lanes; ++lane) {
+        for (int d = 0; d < levels; ++d) columns_[lanes - 1 - lane][d] = newest.at[lane][d];
+      }
     }
     return result;
   }
@@ -63,17 +71,23 @@ class row_sum {
  private:
   /// How many columns the window's right end lies behind the lane, so that results come out in whole beats.
   static constexpr int skew = delay_beats * lanes - Window::radius;
-  static constexpr int history = window::larger(skew + window_columns, lanes) * groups;
+  static constexpr int history = window::larger(skew + window_columns, lanes);
   using change_t = ap_int<16>;  // modulo 2^16, as the sum
 
-  /// Column i of the newest beat, in the same group of levels; negative: before it.
+  /// Column i of the newest beat; negative: before it.
   const column_t (&column(const column_beat& newest, int i) const)[levels] {
-    return i >= 0 ? newest.at[i] : columns_[-i * groups - 1];
+    if constexpr (groups > 1) return i == -skew ? entering_.at[0] : leaving_.at[0];
+    return i >= 0 ? newest.at[i] : columns_[-1 - i];
   }
 
-  // [0] = the last column before the newest beat; of several groups: the last group of that column, and so on.
-  column_t columns_[history][levels];
   cost_t sum_[groups][levels];
+  // One group: the columns, [0] = the last one before the newest beat.
+  column_t columns_[history][levels];
+  // Several groups: the columns that wait to enter the window, and those that wait to leave it.
+  level_delay<column_t, levels, groups == 1 ? 0 : skew * groups> waiting_;
+  level_delay<column_t, levels, groups == 1 ? 0 : (skew + window_columns) * groups> inside_;
+  column_beat entering_;
+  column_beat leaving_;
 };
 
 }  // namespace epiline::kernels

@@ -24,7 +24,7 @@ struct adaptive_ca_config {
   static constexpr int max_width = 1024;
   static constexpr int max_height = 4095;
   static constexpr int levels = 80;                                 // at most 128
-  static constexpr int parallel_disparities = kernels::all_levels;  // computed in one clock
+  static constexpr int parallel_disparities = kernels::all_levels;  // computed in one clock; a divisor of levels
   static constexpr int pixels_per_beat = 1;
 };
 
@@ -72,25 +72,32 @@ void adaptive_ca_frame(hls::stream<typename adaptive_ca_interface<Config>::video
 
   // State lives on from frame to frame: calls follow one another without a bubble, and nothing needs a reset.
   static rows lines;
+  static typename rows::columns columns;
   static variation_t variation;
+  static window_choice_t choice[lanes];
   static window_choice_t choice_a_beat_ago[lanes];
   static sad matcher;
+  static best_of_groups<Config, typename sad::cost_t> best;
   static window::row_window<disparity_pixel, lanes, schedule::padding_beats * lanes - sad::delay_columns + lanes>
       winners;
   static filter_t filter;
 
   const typename frame_raster::beats_t beats = (width + (lanes - 1)) / lanes;
   frame_raster raster(beats, height);
+  level_group<Config> group;
+  typename frame_raster::ends ends_before = {false, false};  // as the iteration before saw them
   bool more = true;
   do {
 #pragma HLS PIPELINE II = 1
-    typename rows::beat_t left_pixels = 0;
-    typename rows::beat_t right_pixels = 0;
-    if (raster.in_frame()) {
-      left_pixels = left.read().data;
-      right_pixels = right.read().data;
+    if (group.first()) {
+      typename rows::beat_t left_pixels = 0;
+      typename rows::beat_t right_pixels = 0;
+      if (raster.in_frame()) {
+        left_pixels = left.read().data;
+        right_pixels = right.read().data;
+      }
+      columns = lines.step(left_pixels, right_pixels, raster.beat(), raster.in_columns());
     }
-    const auto columns = lines.step(left_pixels, right_pixels, raster.beat(), raster.in_columns());
 
     typename sad::place at;
     at.column.beat = raster.beat();
@@ -99,6 +106,7 @@ void adaptive_ca_frame(hls::stream<typename adaptive_ca_interface<Config>::video
     at.column.first_row = raster.row() == 0;
     at.row_starts = raster.beat() == 0;
     for (int k = 0; k < sad::window_rows; ++k) at.row_in[k] = raster.row() >= k;
+    at.group = group;
 
     // The five rows around the centre, which is `radius` rows above the newest one.
     luma_t around[variation_t::rows][lanes];
@@ -110,11 +118,12 @@ void adaptive_ca_frame(hls::stream<typename adaptive_ca_interface<Config>::video
     }
     for (int lane = 0; lane < lanes; ++lane) variation_at.lane_in[lane] = at.column.lane_in[lane];
     variation_at.row_starts = at.row_starts;
-    variation.step(around, variation_at);
-    window_choice_t choice[lanes];
-    for (int lane = 0; lane < lanes; ++lane) {
-      choice[lane] = choice_a_beat_ago[lane];
-      choice_a_beat_ago[lane] = variation.choice(lane, t2, t5);
+    if (group.first()) {
+      variation.step(around, variation_at);
+      for (int lane = 0; lane < lanes; ++lane) {
+        choice[lane] = choice_a_beat_ago[lane];
+        choice_a_beat_ago[lane] = variation.choice(lane, t2, t5);
+      }
     }
 
     const auto all_costs = matcher.step(columns.left, columns.right, at, choice);
@@ -128,14 +137,16 @@ void adaptive_ca_frame(hls::stream<typename adaptive_ca_interface<Config>::video
       centre_in[lane] = centre_in_rows && centre_x + lane >= 0 && centre_x + lane < width;
     }
     const auto costs =
-        candidate_mask<Config, typename sad::costs, sad::penalty>::step(all_costs, centre_x, centre_in, levels);
+        candidate_mask<Config, typename sad::costs, sad::penalty>::step(all_costs, centre_x, centre_in, levels, group);
 
     disparity_pixel centre_winner[lanes];
     typename sad::cost_t lowest[lanes];
     pick_winners(costs, centre_in, centre_winner, lowest);
+    best.step(centre_winner, lowest, group);
 
-    // They make whole beats again here, where they are narrow.
-    winners.step(centre_winner, false);
+    // From here on nothing depends on the level: one step a beat. The winners make whole beats again here, where they
+    // are narrow.
+    if (group.last()) winners.step(centre_winner, false);
     disparity_pixel winner[lanes];
     for (int lane = 0; lane < lanes; ++lane) {
       winner[lane] = winners.tap[schedule::padding_beats * lanes - sad::delay_columns + lanes - 1 - lane];
@@ -155,9 +166,14 @@ void adaptive_ca_frame(hls::stream<typename adaptive_ca_interface<Config>::video
     filter_at.marks.in_frame = filter_at.in_frame[0];
     filter_at.marks.first_beat = raster.row() == schedule::padding_rows && centre_beat == 0;
     filter_at.marks.last_of_row = centre_beat == beats - 1;
-    const auto found = filter.step(winner, filter_at, automaton, ring);
-    if (found.marks.in_frame) disparity.write(output_beat<Config>(found));
-    more = raster.advance();
+    const auto ends = raster.ends_here();
+    if (group.last()) {
+      const auto found = filter.step(winner, filter_at, automaton, ring);
+      if (found.marks.in_frame) disparity.write(output_beat<Config>(found));
+      more = raster.advance(level_groups<Config>::count == 1 ? ends : ends_before);
+    }
+    ends_before = ends;
+    group.advance();
   } while (more);
 }
 

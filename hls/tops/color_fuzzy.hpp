@@ -14,6 +14,7 @@
 #include "kernels/winner.hpp"
 #include "tops/stereo_interface.hpp"
 #include "window/bits.hpp"
+#include "window/line_buffer.hpp"
 #include "window/raster.hpp"
 
 namespace epiline::tops {
@@ -27,6 +28,7 @@ struct color_fuzzy_config {
   static constexpr int pixels_per_beat = 1;
   static constexpr int window_radius = 3;
   static constexpr int fuzzy_radius = 3;
+  static constexpr window::row_memory row_memory = window::row_memory::side_by_side;
   static constexpr int uniqueness_delay = 32;  // iterations the costs wait for the winner
   using rule_base = kernels::triangular_rule_base<6>;
 };

@@ -1,4 +1,7 @@
 #pragma once
+#include <ap_int.h>
+
+#include "window/bits.hpp"
 
 namespace epiline::window {
 
@@ -32,6 +35,47 @@ class line_buffer {
 
  private:
   Word lines_[Columns][Rows];
+};
+
+/// How row_delay keeps its rows in RAM.
+enum class row_memory {
+  /// All rows of a column in one wide word: for rows about as long as a block RAM is deep, or longer.
+  side_by_side,
+  /// One row behind the other in a narrow, deep RAM: for short rows, of which several share a block RAM.
+  one_after_another,
+};
+
+/// What stood in a column `Rows` rows ago.
+///
+/// State: the rows, never reset, and where the newest one lies.
+template <class Word, int Rows, int Columns, row_memory Memory>
+class row_delay {
+ public:
+  /// Puts `newest` into column x (0 .. Columns - 1). The same column may come again after `shortest_row` iterations at
+  /// the earliest. `row_starts`: the column is the first one of a row that has any.
+  Word step(const Word& newest, int x, bool /*row_starts*/) { return rows_.step(newest, x).rows[Rows - 1]; }
+
+ private:
+  line_buffer<Word, Rows, Columns> rows_;
+};
+
+template <class Word, int Rows, int Columns>
+class row_delay<Word, Rows, Columns, row_memory::one_after_another> {
+ public:
+  Word step(const Word& newest, int x, bool row_starts) {
+#pragma HLS INLINE
+#pragma HLS DEPENDENCE variable = words_ type = inter distance = shortest_row true
+    if (row_starts) first_word_ = first_word_ == (Rows - 1) * Columns ? word_t(0) : word_t(first_word_ + Columns);
+    const int word = int(first_word_) + x;
+    const Word oldest = words_[word];
+    words_[word] = newest;
+    return oldest;
+  }
+
+ private:
+  using word_t = ap_uint<bits_for(Rows* Columns)>;
+  word_t first_word_;  // of the newest row
+  Word words_[Rows * Columns];
 };
 
 }  // namespace epiline::window

@@ -7,11 +7,12 @@
 namespace epiline::test {
 namespace {
 
-template <int Lanes, int Levels, int MaxWidth>
+template <int Lanes, int Levels, int MaxWidth, int ParallelDisparities = kernels::all_levels>
 struct test_config : tops::adaptive_ca_config {
   static constexpr int max_width = MaxWidth;
   static constexpr int max_height = 15;
   static constexpr int levels = Levels;
+  static constexpr int parallel_disparities = ParallelDisparities;
   static constexpr int pixels_per_beat = Lanes;
 };
 
@@ -63,7 +64,9 @@ class adaptive_ca_of : public testing::Test {
 using configs = testing::Types<test_config<1, 8, 64>, test_config<2, 8, 64>, test_config<4, 8, 64>,  //
                                test_config<1, 13, 40>, test_config<2, 13, 40>, test_config<4, 13, 41>,
                                test_config<1, 1, 40>, test_config<2, 2, 40>, test_config<4, 3, 40>,  //
-                               test_config<1, 64, 40>, test_config<4, 80, 40>>;
+                               test_config<1, 64, 40>, test_config<4, 80, 40>,                       //
+                               test_config<1, 8, 64, 4>, test_config<1, 8, 64, 2>, test_config<1, 8, 64, 1>,
+                               test_config<1, 15, 40, 5>, test_config<1, 80, 40, 16>>;
 TYPED_TEST_SUITE(adaptive_ca_of, configs);
 
 TYPED_TEST(adaptive_ca_of, every_size) {

@@ -10,17 +10,17 @@
 namespace epiline::kernels {
 namespace {
 
-template <int Lanes>
+template <int Lanes, int ParallelDisparities = all_levels>
 struct config {
   static constexpr int max_width = 40;
   static constexpr int levels = 9;
-  static constexpr int parallel_disparities = all_levels;
+  static constexpr int parallel_disparities = ParallelDisparities;
   static constexpr int pixels_per_beat = Lanes;
 };
 
 template <class Config>
 class adaptive_sad_of : public testing::Test {};
-using configs = testing::Types<config<1>, config<2>, config<4>>;
+using configs = testing::Types<config<1>, config<2>, config<4>, config<1, 3>, config<1, 1>>;
 TYPED_TEST_SUITE(adaptive_sad_of, configs);
 
 /// Walks over the frame as the top does, with frames of different sizes one after another in one object.
@@ -61,15 +61,20 @@ TYPED_TEST(adaptive_sad_of, equals_brute_force_for_every_candidate_and_window) {
           }
         }
         const auto columns = lines->step(left, right, beat, beat < beats);
-        const auto costs = matcher->step(columns.left, columns.right, at, choice);
-        for (int lane = 0; lane < lanes; ++lane) {
-          const int x = beat * lanes + lane - sad::delay_columns;
-          const int y = row - radius;
-          if (x < 0 || x >= width || y < 0) continue;
-          for (int d = 0; d <= std::min(x, TypeParam::levels - 1); ++d) {
-            ASSERT_EQ(costs.at[lane][d], test::luma_cost(pair, x, y, d, radius_of_lane[lane]))
-                << "frame " << frame << ' ' << width << 'x' << height << ", x " << x << ", y " << y << ", d " << d
-                << ", radius " << radius_of_lane[lane];
+        for (int group = 0; group < at.group.count; ++group) {
+          const auto costs = matcher->step(columns.left, columns.right, at, choice);
+          at.group.advance();
+          for (int lane = 0; lane < lanes; ++lane) {
+            const int x = beat * lanes + lane - sad::delay_columns;
+            const int y = row - radius;
+            if (x < 0 || x >= width || y < 0) continue;
+            for (int i = 0; i < sad::levels; ++i) {
+              const int d = group * sad::levels + i;
+              if (d > x) break;
+              ASSERT_EQ(costs.at[lane][i], test::luma_cost(pair, x, y, d, radius_of_lane[lane]))
+                  << "frame " << frame << ' ' << width << 'x' << height << ", x " << x << ", y " << y << ", d " << d
+                  << ", radius " << radius_of_lane[lane];
+            }
           }
         }
       }

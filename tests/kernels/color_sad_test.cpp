@@ -8,6 +8,7 @@
 
 #include "brute_force.hpp"
 #include "kernels/candidates.hpp"
+#include "kernels/level_delay.hpp"
 
 namespace epiline::kernels {
 namespace {
@@ -59,11 +60,36 @@ TEST(pixel_taps, repeat_the_first_pixel_left_of_the_row) {
   expect_taps<4>();
 }
 
-template <int Lanes, int Radius, int ParallelDisparities = all_levels>
+template <int Length>
+void expect_level_delay() {
+  using delay = level_delay<ap_uint<9>, 2, Length>;
+  const auto line = std::make_unique<delay>();
+  for (int step = 1; step < 3 * Length + 5; ++step) {
+    typename delay::values newest;
+    newest.at[0][0] = step;
+    newest.at[0][1] = 2 * step;
+    const auto oldest = line->step(newest);
+    const int then = std::max(step - Length, 0);
+    ASSERT_EQ(oldest.at[0][0], then) << "length " << Length << ", step " << step;
+    ASSERT_EQ(oldest.at[0][1], 2 * then);
+  }
+}
+
+TEST(level_delay, starts_with_zeros) {
+  expect_level_delay<0>();
+  expect_level_delay<1>();
+  expect_level_delay<16>();
+  expect_level_delay<17>();
+  expect_level_delay<40>();
+}
+
+template <int Lanes, int Radius, int ParallelDisparities = all_levels,
+          window::row_memory Memory = window::row_memory::side_by_side>
 struct config {
   static constexpr int max_width = 40;
   static constexpr int levels = 9;
   static constexpr int parallel_disparities = ParallelDisparities;
+  static constexpr window::row_memory row_memory = Memory;
   static constexpr int pixels_per_beat = Lanes;
   static constexpr int window_radius = Radius;
 };
@@ -71,7 +97,9 @@ struct config {
 template <class Config>
 class color_sad_of : public testing::Test {};
 using configs = testing::Types<config<1, 3>, config<2, 3>, config<4, 3>, config<1, 1>, config<2, 1>, config<1, 2>,
-                               config<4, 2>, config<2, 0>, config<1, 3, 3>, config<1, 3, 1>, config<1, 2, 9>>;
+                               config<4, 2>, config<2, 0>, config<1, 3, 3>, config<1, 3, 1>, config<1, 2, 9>,
+                               config<1, 3, 3, window::row_memory::one_after_another>,
+                               config<2, 3, all_levels, window::row_memory::one_after_another>>;
 TYPED_TEST_SUITE(color_sad_of, configs);
 
 /// Walks over the frame as the top does, with frames of different sizes one after another in one object.

@@ -19,6 +19,7 @@ struct config {
   static constexpr int max_width = 64;
   static constexpr int levels = Levels;
   static constexpr int parallel_disparities = ParallelDisparities;
+  static constexpr window::row_memory row_memory = window::row_memory::side_by_side;
   static constexpr int pixels_per_beat = Lanes;
   static constexpr int window_radius = 3;
   static constexpr int uniqueness_delay = 11;

@@ -36,6 +36,33 @@ TEST(line_buffer, returns_the_rows_above_of_the_same_column) {
   }
 }
 
+/// Rows of changing length, as frames of different width have them.
+template <row_memory Memory>
+void expect_row_delay() {
+  constexpr int columns = 11;
+  constexpr int rows = 3;
+  row_delay<ap_uint<16>, rows, columns, Memory> delay{};
+  std::mt19937 random(2);
+  for (const int length : {columns, 8, 9}) {
+    std::map<std::pair<int, int>, int> written;
+    for (int y = 0; y < 10; ++y) {
+      for (int x = 0; x < length; ++x) {
+        const int value = static_cast<int>(random() % 65536);
+        const auto oldest = delay.step(value, x, x == 0);
+        written[{x, y}] = value;
+        if (y >= rows) {
+          EXPECT_EQ(oldest, (written[{x, y - rows}])) << x << ' ' << y;
+        }
+      }
+    }
+  }
+}
+
+TEST(row_delay, returns_the_word_some_rows_above) {
+  expect_row_delay<row_memory::side_by_side>();
+  expect_row_delay<row_memory::one_after_another>();
+}
+
 /// Rows of 8 pixels numbered on from row to row; expected(tap's column, row) is the pixel number there.
 template <int Lanes, class Border, class Expected>
 void expect_row_window(Expected expected) {
