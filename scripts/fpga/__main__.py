@@ -144,6 +144,8 @@ class flow:
         statuses = []
         run_programs([what], 1, self.report, lambda _, status, seconds: statuses.append((status, seconds)))
         if statuses[0][0] != 0:
+            if name == "hls":  # a compiler's message is read whole
+                print(what.log.read_text(encoding="utf-8", errors="replace").rstrip(), file=sys.stderr)
             self.store.fail(name, partial, f"{what.title} failed: {explain_failure(what.log)}")
         return statuses[0][1]
 
@@ -213,7 +215,8 @@ class flow:
                 "synthesis", [root / "scripts" / "synthesize.sh", *self.verilog, self.module, "-o", partial,
                               "--target", self.wanted.device.family],
                 partial, partial / "synthesis.log", {"YOSYS": str(self.tools / "bin" / "yosys")},
-                ((r"^\d+(?:\.\d+)*\. Executing (\w+) pass", r"\1"),)))
+                ((r"Executing (?:MEMORY_LIBMAP) pass", "mapping memories"), (r"Executing ABC9? pass", "mapping logic"),
+                 (r"Executing OPT_LUT_INS pass", "checking")), partial / "yosys.log"))
             place = self.store.finish("synthesis", key, partial, seconds)
         self.synthesis, self.synthesis_key = place, key
         self.resources = json.loads((place / "resources.json").read_text(encoding="utf-8"))

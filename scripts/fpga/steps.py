@@ -55,6 +55,7 @@ class program:
     log: pathlib.Path          # its standard output and standard error
     environment: dict = dataclasses.field(default_factory=dict)
     phases: tuple = ()         # (regular expression of a line of the log, what to say)
+    followed: pathlib.Path = None  # the log with those lines, where it is another one
 
 
 libc = ctypes.CDLL(None)
@@ -79,9 +80,12 @@ class running:
     def follow(self):
         """Looks at the log; True while the program runs."""
         alive = self.process.poll() is None
-        with open(self.what.log, "rb") as log:
-            log.seek(self.seen)
-            new = log.read()
+        try:
+            with open(self.what.followed or self.what.log, "rb") as log:
+                log.seek(self.seen)
+                new = log.read()
+        except FileNotFoundError:  # not yet
+            new = b""
         complete = new.rfind(b"\n") + 1
         self.seen += complete
         phase = self.phase
@@ -129,7 +133,7 @@ def explain_failure(log):
     if "No space left on device" in text or os.strerror(errno.ENOSPC) in text:
         return f"the disk is full ({log.parent})"
     said = [line.strip() for line in text.splitlines() if re.search(r"\berror\b", line, re.IGNORECASE)]
-    said = said or text.strip().splitlines()[-1:]
+    said = said or text.strip().splitlines()[:1]
     return "; ".join(dict.fromkeys(said[:3])) or "it said nothing"
 
 

@@ -30,6 +30,10 @@ def main(arguments):
             sys.exit(f"yosys: error: unknown argument '{word}'")
         else:
             commands.append(("tcl " if word.endswith(".tcl") else "script ") + word)
+    if any(command.startswith("tcl ") for command in commands):
+        # pyosys is built without Tcl, which edalize's scripts are written in.
+        print("yosys: a Tcl script, which pyosys cannot run: Debian's Yosys takes it", file=sys.stderr)
+        os.execv("/usr/bin/yosys", ["yosys", *arguments])
     # Yosys logs to standard output; errors go to standard error, too.
     terminal = os.dup(1)
     target = os.open(log or os.devnull, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o666)
