@@ -14,6 +14,8 @@ namespace epiline::window {
 /// Schedule: named constants maximum_beats, maximum_rows, padding_beats, padding_rows, flush_beats, minimum_row_beats.
 template <class Schedule>
 class raster {
+  static_assert(Schedule::minimum_row_beats >= 2 && Schedule::flush_beats >= 2, "a row ends after its first beat");
+
  public:
   static constexpr int longest_row = larger(
       larger(Schedule::maximum_beats + Schedule::padding_beats, Schedule::minimum_row_beats), Schedule::flush_beats);
@@ -24,12 +26,14 @@ class raster {
 
   /// Begins a frame of `beats` x `rows` (both at least 1).
   raster(beats_t beats, rows_t rows)
-      : beat_(0), row_(0), in_rows_(true), in_columns_(true), in_frame_(true), in_flush_(false) {
+      : beat_(0), row_(0), row_ends_(false), in_rows_(true), in_columns_(true), in_frame_(true), in_flush_(false) {
     last_frame_beat_ = beats - 1;
     last_frame_row_ = rows - 1;
     last_padding_row_ = rows + Schedule::padding_rows - 1;
     const beat_t wanted = last_frame_beat_ + Schedule::padding_beats;
-    last_row_beat_ = wanted < Schedule::minimum_row_beats - 1 ? beat_t(Schedule::minimum_row_beats - 1) : wanted;
+    const beat_t last_row_beat =
+        wanted < Schedule::minimum_row_beats - 1 ? beat_t(Schedule::minimum_row_beats - 1) : wanted;
+    last_row_beat_but_one_ = last_row_beat - 1;
   }
 
   beat_t beat() const { return beat_; }
@@ -45,9 +49,7 @@ class raster {
     bool row;
     bool columns;
   };
-  ends ends_here() const {
-    return {in_flush_ ? beat_ == Schedule::flush_beats - 1 : beat_ == last_row_beat_, beat_ == last_frame_beat_};
-  }
+  ends ends_here() const { return {row_ends_, beat_ == last_frame_beat_}; }
 
   /// Goes on to the next beat; false after the last one.
   bool advance() { return advance(ends_here()); }
@@ -59,10 +61,12 @@ class raster {
       in_rows_ = in_rows_ && row_ != last_frame_row_;
       if (row_ == last_padding_row_) in_flush_ = true;
       row_ = row_ + 1;
+      row_ends_ = false;
       beat_ = 0;
       in_columns_ = true;
       in_frame_ = in_rows_;
     } else {
+      row_ends_ = in_flush_ ? beat_ == Schedule::flush_beats - 2 : beat_ == last_row_beat_but_one_;
       beat_ = beat_ + 1;
       if (here.columns) {
         in_columns_ = false;
@@ -77,13 +81,14 @@ class raster {
   // not wait for a comparison.
   beat_t beat_;
   row_t row_;
+  bool row_ends_;  // known a beat before: whether there is another iteration hangs on it
   bool in_rows_;
   bool in_columns_;
   bool in_frame_;
   bool in_flush_;
   // Constants of the frame, which nothing changes on the way: their making may take its time before the first beat.
   // Comparing for equality is quicker than for order.
-  beat_t last_row_beat_;  // of every row but the flush
+  beat_t last_row_beat_but_one_;  // of every row but the flush
   beat_t last_frame_beat_;
   row_t last_frame_row_;
   row_t last_padding_row_;
