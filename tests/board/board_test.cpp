@@ -233,6 +233,26 @@ TEST(board, identity_that_is_not_understood_is_an_error) {
   EXPECT_THAT(identity.arguments, testing::ElementsAre("width", "height"));
 }
 
+TEST(board, whose_design_gives_more_or_less_than_its_size_is_an_error) {
+  test::simulated_board board({});
+  serial_port port(board.port(), 3'000'000);
+  board_link link(port, {.patience = 60s, .stuck = 3s});
+  const eval::match_request request = request_of(16, "color_fuzzy", 20, 6);
+  const board_identity identity = link.identify();
+  const bytes order = frame_order(identity, request);
+  const auto error = [&](std::size_t count) -> std::string {
+    try {
+      (void)link.run(order, count, {});
+    } catch (const link_error& caught) {
+      return caught.what();
+    }
+    return "no error";
+  };
+  EXPECT_THAT(error(20 * 6 + 1), HasSubstr("its design does not go on"));
+  EXPECT_THAT(error(10), HasSubstr("sends more than the 10 bytes"));
+  EXPECT_EQ(run(link, request), native("color_fuzzy", request));  // and the link is none the worse for it
+}
+
 /// At full speed: the CRC is native's, and hardly more clocks go by than there are pixels.
 TEST(board, tests_itself_at_full_speed) {
   test::simulated_board board({});
