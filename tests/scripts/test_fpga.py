@@ -251,6 +251,16 @@ class bad_input(fpga_bench):
         self.expect_error(self.run_flow("-o", "counter.cpp"), "counter.cpp")
 
 
+class published_runs(fpga_bench):
+    def test_are_command_lines_of_the_flow(self):
+        lines = (root / "scripts" / "fpga" / "published.txt").read_text().splitlines()
+        runs = [line.split() for line in lines if not line.startswith("#")]
+        self.assertGreater(len(runs), 1)
+        for run in runs:
+            ended = self.run_plain(*run, "--check-arguments")
+            self.assertEqual(ended.returncode, 0, ended.stderr)
+
+
 class boards(unittest.TestCase):
     def test_every_board_can_be_read(self):
         for name in devices.boards():

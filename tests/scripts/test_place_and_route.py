@@ -51,6 +51,22 @@ class place_and_route(unittest.TestCase):
         self.check_figures()
         self.check_bitstream()
 
+    def test_the_small_device(self):
+        ended = subprocess.run([command[0], f"{root}/tests/formal/modules/window_minimum.cpp:window_minimum", "--target", "hx8k",
+                                "--clock", "20", "--seeds", "1", "-o", "out"], cwd=self.folder, capture_output=True, text=True,
+                               check=False)
+        self.assertEqual(ended.returncode, 0, ended.stdout + ended.stderr)
+        run = json.loads((self.out / "window_minimum.json").read_text(encoding="utf-8"))
+        self.assertGreater(run["fmax_mhz"]["median"], 50)
+        log = (self.out / "seed_1" / "nextpnr.log").read_text(encoding="utf-8")
+        cells = int(re.search(r"ICESTORM_LC: +(\d+)/", log)[1])
+        self.assertEqual(run["resources"]["after_packing"]["logic_cells"], cells)
+        self.assertLess(run["resources"]["lut4"], cells)
+        self.assertGreater(run["resources"]["flip_flops"], 50)
+        bits = (self.out / "window_minimum.bin").read_bytes()
+        self.assertEqual(len(bits), 135100)  # every bitstream of this device
+        self.assertIn(bytes.fromhex("7eaa997e"), bits[:64])  # the word that a bitstream is found by
+
     def check_figures(self):
         run = json.loads((self.out / f"{top}.json").read_text(encoding="utf-8"))
         log = (self.out / "seed_1" / "nextpnr.log").read_text(encoding="utf-8")
