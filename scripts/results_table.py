@@ -148,6 +148,8 @@ def make_text(folder):
     for run in runs:
         best = next(seed for seed in run["seeds"] if seed["seed"] == run["fmax_mhz"]["best_seed"])
         path = best["critical_path"]
+        if path is None:  # no register drives another
+            continue
         hops = sorted(path["hops"], key=lambda hop: -(hop["logic_ns"] + hop["routing_ns"]))[:4]
         rows.append([f"`{run['top']}`", number(path["period_ns"], 2), number(path["logic_ns"], 2), number(path["routing_ns"], 2),
                      "; ".join(f"{hop['source'] or 'control'} `{hop['name'].replace('|', '')}` "

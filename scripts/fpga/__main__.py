@@ -307,13 +307,11 @@ class flow:
         hx8k = self.wanted.device.family == "hx8k"
         routed = self.wanted.folder / name / f"{self.module}.{'asc' if hx8k else 'config'}"
         partial = self.store.begin("bitstream")
-        suffix = f"_{self.wanted.board.name}" if self.wanted.board else ""
-        file = f"{self.wanted.top}{suffix}.{'bin' if hx8k else 'bit'}"
+        file = self.bitstream.name
         # Relative names: they are shown to the program wherever the folder is.
         command = [self.packer, *([] if hx8k else ["--compress"]), f"../{name}/{routed.name}", file]
         seconds = self.one_program("bitstream", partial, program("bitstream", command, partial, partial / "pack.log"))
         place = self.store.finish("bitstream", digest(routed, self.versions), partial, seconds)
-        self.bitstream = self.wanted.folder / file
         shutil.copyfile(place / file, self.bitstream.with_suffix(".partial"))
         self.bitstream.with_suffix(".partial").replace(self.bitstream)
         self.report.say(f"bitstream: {self.bitstream} ({self.bitstream.stat().st_size} bytes, seed {self.best['seed']})")
@@ -357,15 +355,15 @@ class flow:
             "bitstream": {"file": self.bitstream.name, "bytes": self.bitstream.stat().st_size,
                           "sha256": hashlib.sha256(self.bitstream.read_bytes()).hexdigest()},
         }
-        self.result_file = wanted.folder / f"{wanted.top}.json"
         write_whole(self.result_file, json.dumps(text, indent=1) + "\n")
         return text
 
     def print_result(self, text):
         path = self.best["critical_path"]
-        print(f"\ncritical path of seed {self.best['seed']} after routing: {path['period_ns']:.2f} ns, "
-              f"wanted {self.wanted.clock_ns:.2f} ns")
-        print("\n".join(critical_path.as_text(path)))
+        if path:
+            print(f"\ncritical path of seed {self.best['seed']} after routing: {path['period_ns']:.2f} ns, "
+                  f"wanted {self.wanted.clock_ns:.2f} ns")
+            print("\n".join(critical_path.as_text(path)))
         by_seed = ", ".join(f"{seed['fmax_mhz']:.1f} (seed {seed['seed']})" for seed in self.seeds)
         print(f"\n{text['top']} on {text['device']}" + (f", speed grade {text['speed_grade']}" if text["speed_grade"] else ""))
         print(f"  LUT4        {text['resources']['lut4']}\n  flip-flops  {text['resources']['flip_flops']}\n"
@@ -383,10 +381,18 @@ class flow:
                 print(f"  on the board at {self.wanted.board.core_clock_mhz:g} MHz: {text['board_frames_per_second']:.1f} frames/s")
             print(f"\nload it:  openFPGALoader --board={self.wanted.board.loader_name} {self.bitstream}")
 
+    def remove_results(self):
+        """Of an earlier run: if this one fails, they must not pass for its own."""
+        suffix = f"_{self.wanted.board.name}" if self.wanted.board else ""
+        kind = "bin" if self.wanted.device.family == "hx8k" else "bit"
+        self.bitstream = self.wanted.folder / f"{self.wanted.top}{suffix}.{kind}"
+        self.result_file = self.wanted.folder / f"{self.wanted.top}.json"
+        for file in (self.bitstream, self.result_file):
+            file.unlink(missing_ok=True)
+
     def run(self):
         try:
-            self.result_file = self.wanted.folder / f"{self.wanted.top}.json"
-            self.result_file.unlink(missing_ok=True)  # of an earlier run
+            self.remove_results()
             check_space(self.wanted.folder, 200 * 2**20)
             for step in (self.find_tools, self.compile, self.synthesize, self.check_size, self.count_cycles,
                          self.place_and_route, self.read_seeds, self.pack):

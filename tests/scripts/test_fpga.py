@@ -59,6 +59,14 @@ class a_run(fpga_bench):
         self.assertEqual(run["status"], "failed")
         self.assertIn("166.7", run["failure"])
 
+    def test_results_of_an_earlier_run_do_not_outlive_a_failure(self):
+        arguments = ("--clock", "9.5", "--seeds", "1", "-o", "out")
+        self.assertEqual(self.run_flow(*arguments).returncode, 0)
+        (self.folder / "compiler_fails").write_text("")
+        self.expect_error(self.run_flow(*arguments), "epiline-hls failed")
+        self.assertFalse((self.folder / "out" / "counter.bit").exists())
+        self.assertFalse((self.folder / "out" / "counter.json").exists())
+
     def test_schedules_for_another_period_than_it_places_for(self):
         self.assertEqual(self.run_flow("--clock", "9.5", "--hls-clock", "7.5ns", "--seeds", "1", "-o", "out").returncode, 0)
         self.assertEqual(self.calls()[0], "hls 7.5ns ecp5")
