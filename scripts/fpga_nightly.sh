@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Everything published about FPGAs, again: each run of scripts/fpga/published.txt with three seeds, the synthesized netlist
-# of each design on a whole real frame in Verilator against the native engine, and docs/results.md. Takes hours.
+# Everything published about FPGAs, again: each run of scripts/fpga/published.txt with three seeds, the synthesized
+# netlist of each design on a whole real frame in Verilator against the native engine, and docs/results.md. Takes hours.
 #
 #   scripts/fpga_nightly.sh            all runs
 #   scripts/fpga_nightly.sh TOP...     those of these tops
 #
-# Works in build-nightly/, whose netlists are made by the pinned Yosys; an interrupted night goes on where it was. Ends with
-# exit code 1, after everything was tried, if a clock was not reached or a netlist differs.
+# Works in build-nightly/, whose netlists are made by the pinned Yosys; an interrupted night goes on where it was. Ends
+# with exit code 1, after everything was tried, if a clock was not reached or a netlist differs.
 #
 # Environment: EPILINE_DATA = folder of real pairs (as scripts/test.sh); SEEDS = placements a run (default 3).
 # shellcheck source=scripts/common.sh
@@ -21,7 +21,8 @@ for argument in "$@"; do
       ;;
     -*) fail "unknown argument '$argument' (see --help)" ;;
     *)
-      grep -q "^$argument " scripts/fpga/published.txt || fail "no published run of a top '$argument' (scripts/fpga/published.txt)"
+      grep -q "^$argument " scripts/fpga/published.txt ||
+        fail "no published run of a top '$argument' (scripts/fpga/published.txt)"
       wanted+=("$argument")
       ;;
   esac

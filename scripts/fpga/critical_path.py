@@ -10,8 +10,10 @@ import pathlib
 import re
 
 # Where a name that Yosys made of a name of the Verilog leaves it.
-end_of_name = re.compile(r"_(?:TRELLIS_FF|LUT4|CCU2C|PFUMX|L6MUX21|DP16KD|TRELLIS_DPR16X4|MULT18X18D|TRELLIS_IO|"
-                         r"SB_DFF\w*?|SB_LUT4|SB_CARRY|SB_RAM40_4K\w*?)_|[$\[]")
+end_of_name = re.compile(
+    r"_(?:TRELLIS_FF|LUT4|CCU2C|PFUMX|L6MUX21|DP16KD|TRELLIS_DPR16X4|MULT18X18D|TRELLIS_IO|"
+    r"SB_DFF\w*?|SB_LUT4|SB_CARRY|SB_RAM40_4K\w*?)_|[$\[]"
+)
 carry_cell = re.compile(r"CCU2C|CCU2_COMB|SB_CARRY|\$nextpnr_ICESTORM_LC")
 
 
@@ -23,8 +25,11 @@ class source_lines:
         for file in verilog_files:
             for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), 1):
                 comment = re.search(r"//\s*([\w.-]+\.\w+:\d+)\s*$", line)
-                declared = re.match(r"\s*(?:\(\*.*?\*\)\s*)?(?:input|output|wire|reg)\b\s*(?:wire|reg|signed)?\s*"
-                                    r"(?:\[[^\]]*\])?\s*(\w+)", line)
+                declared = re.match(
+                    r"\s*(?:\(\*.*?\*\)\s*)?(?:input|output|wire|reg)\b\s*(?:wire|reg|signed)?\s*"
+                    r"(?:\[[^\]]*\])?\s*(\w+)",
+                    line,
+                )
                 where = comment.group(1) if comment else None
                 name = declared.group(1) if declared else None
                 if where or name:
@@ -60,8 +65,12 @@ class cell_attributes:
 
     def __init__(self, netlist):
         modules = json.loads(netlist.read_text(encoding="utf-8"))["modules"]
-        self.of = {name: cell["attributes"]["src"] for module in modules.values() for name, cell in module["cells"].items()
-                   if "src" in cell.get("attributes", {})}
+        self.of = {
+            name: cell["attributes"]["src"]
+            for module in modules.values()
+            for name, cell in module["cells"].items()
+            if "src" in cell.get("attributes", {})
+        }
 
     def __getitem__(self, cell):
         return self.of.get(cell) or self.of.get(cell.split("$")[0], "")
@@ -80,8 +89,8 @@ def kind_of(part, cell):
 
 
 def in_source_lines(path, lines, attributes):
-    """{"period_ns", "logic_ns", "routing_ns", "hops": [..]}; a hop is what one line of the source has the path go through:
-    the wire to it and the logic in it."""
+    """{"period_ns", "logic_ns", "routing_ns", "hops": [..]}; a hop is what the path goes through for one line of the
+    source: the wire to it and the logic in it."""
     hops, wire = [], 0.0
     parts = path["path"]
     for index, part in enumerate(parts):
@@ -89,7 +98,7 @@ def in_source_lines(path, lines, attributes):
             wire += part["delay"]
             continue
         cell = part["to"]["cell"]
-        next_net = next((later for later in parts[index + 1:] if later["type"] == "routing"), None)
+        next_net = next((later for later in parts[index + 1 :] if later["type"] == "routing"), None)
         found = lines.of_attribute(attributes[cell])
         if found is None and next_net and next_net["from"]["cell"] == cell:
             found = next(filter(None, (lines.of_attribute(source) for source in next_net.get("sources", []))), None)
@@ -103,25 +112,35 @@ def in_source_lines(path, lines, attributes):
             last["logic_ns"] += part["delay"]
             last["cells"] += 1
         else:
-            hops.append({"source": where, "name": name, "kind": kind, "cells": 1, "routing_ns": wire, "logic_ns": part["delay"]})
+            hops.append(
+                {"source": where, "name": name, "kind": kind, "cells": 1, "routing_ns": wire, "logic_ns": part["delay"]}
+            )
         wire = 0.0
     for hop in hops:
         hop["routing_ns"], hop["logic_ns"] = round(hop["routing_ns"], 3), round(hop["logic_ns"], 3)
     logic = sum(part["delay"] for part in parts if part["type"] != "routing")
     routing = sum(part["delay"] for part in parts if part["type"] == "routing")
-    return {"period_ns": round(logic + routing, 3), "logic_ns": round(logic, 3), "routing_ns": round(routing, 3),
-            "hops": hops}
+    return {
+        "period_ns": round(logic + routing, 3),
+        "logic_ns": round(logic, 3),
+        "routing_ns": round(routing, 3),
+        "hops": hops,
+    }
 
 
 def as_text(path):
     """Lines for people."""
-    text = ["     ns   wire  logic  cells  source line", ]
+    text = ["     ns   wire  logic  cells  source line"]
     total = 0.0
     for hop in path["hops"]:
         total += hop["routing_ns"] + hop["logic_ns"]
-        text.append(f"  {total:5.2f}  {hop['routing_ns']:5.2f}  {hop['logic_ns']:5.2f}  {hop['cells']:5}  "
-                    f"{hop['source'] or '(generated control)'}  {hop['name']} ({hop['kind']})")
+        text.append(
+            f"  {total:5.2f}  {hop['routing_ns']:5.2f}  {hop['logic_ns']:5.2f}  {hop['cells']:5}  "
+            f"{hop['source'] or '(generated control)'}  {hop['name']} ({hop['kind']})"
+        )
     period = path["period_ns"]
-    text.append(f"  {path['logic_ns']:.2f} ns logic ({100 * path['logic_ns'] / period:.0f} %), "
-                f"{path['routing_ns']:.2f} ns wires ({100 * path['routing_ns'] / period:.0f} %)")
+    text.append(
+        f"  {path['logic_ns']:.2f} ns logic ({100 * path['logic_ns'] / period:.0f} %), "
+        f"{path['routing_ns']:.2f} ns wires ({100 * path['routing_ns'] / period:.0f} %)"
+    )
     return text

@@ -26,8 +26,22 @@ def cycles_of_a_frame(build, top, verilog, width, height, levels):
             folder = pathlib.Path(name)
             image = folder / "noise.pgm"
             frame_rates.write_noise(image, width, height)
-            frame_rates.run([epiline, "match", "--design", top, "--engine", "rtl", image, image, "--levels", levels,
-                             "--json", folder / "figures.json"])
+            frame_rates.run(
+                [
+                    epiline,
+                    "match",
+                    "--design",
+                    top,
+                    "--engine",
+                    "rtl",
+                    image,
+                    image,
+                    "--levels",
+                    levels,
+                    "--json",
+                    folder / "figures.json",
+                ]
+            )
             cycles = json.loads((folder / "figures.json").read_text(encoding="utf-8"))["cycles"]
     except (frame_rates.measuring_error, OSError, ValueError, KeyError, subprocess.SubprocessError) as error:
         return {"cycles": None, "reason": str(error)}
@@ -45,5 +59,8 @@ def rates(frame, megahertz, lut4):
         return {"frames_per_second": None, "mde_per_second": None, "mde_per_second_per_lut4": None}
     frames = megahertz * 1e6 / frame["cycles"]
     evaluations = frame["width"] * frame["height"] * frame["levels"] * frames / 1e6
-    return {"frames_per_second": round(frames, 2), "mde_per_second": round(evaluations, 1),
-            "mde_per_second_per_lut4": round(evaluations / lut4, 4)}
+    return {
+        "frames_per_second": round(frames, 2),
+        "mde_per_second": round(evaluations, 1),
+        "mde_per_second_per_lut4": round(evaluations / lut4, 4),
+    }

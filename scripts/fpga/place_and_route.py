@@ -18,15 +18,31 @@ phases = (
 
 # What nextpnr's report calls the cells of each family.
 utilisation_names = {
-    "ecp5": {"logic_cells": "TRELLIS_COMB", "flip_flops": "TRELLIS_FF", "block_rams": "DP16KD", "multipliers": "MULT18X18D"},
+    "ecp5": {
+        "logic_cells": "TRELLIS_COMB",
+        "flip_flops": "TRELLIS_FF",
+        "block_rams": "DP16KD",
+        "multipliers": "MULT18X18D",
+    },
     "hx8k": {"logic_cells": "ICESTORM_LC", "block_rams": "ICESTORM_RAM"},
 }
 
 
 def command_for(family, executable, options, netlist, top, seed, megahertz, constraints):
     """nextpnr's command line; it writes its files into the current folder."""
-    command = [executable, *options, "--json", netlist, "--top", top, "--seed", str(seed), "--report", "report.json",
-               "--timing-allow-fail"]  # whether the clock is reached is judged from the report
+    command = [
+        executable,
+        *options,
+        "--json",
+        netlist,
+        "--top",
+        top,
+        "--seed",
+        str(seed),
+        "--report",
+        "report.json",
+        "--timing-allow-fail",
+    ]  # whether the clock is reached is judged from the report
     if family == "ecp5":
         command += ["--textcfg", f"{top}.config", "--detailed-timing-report"]
         command += ["--lpf", constraints] if constraints else ["--lpf-allow-unconstrained"]
@@ -57,11 +73,21 @@ def core_clock(clocks):
 
 
 def utilisation(report, family):
-    return {ours: report["utilization"][theirs]["used"] for ours, theirs in utilisation_names[family].items()
-            if theirs in report["utilization"]}
+    return {
+        ours: report["utilization"][theirs]["used"]
+        for ours, theirs in utilisation_names[family].items()
+        if theirs in report["utilization"]
+    }
 
 
 def does_not_fit(log_text):
     """Whether nextpnr gave up since the device is (nearly) full."""
-    return re.search(r"ERROR: .*(unable to (?:find|place)|failed to (?:find|place)|no (?:more )?bels|no BELs remaining|"
-                     r"utilisation limit|expand the region)", log_text, re.IGNORECASE) is not None
+    return (
+        re.search(
+            r"ERROR: .*(unable to (?:find|place)|failed to (?:find|place)|no (?:more )?bels|no BELs remaining|"
+            r"utilisation limit|expand the region)",
+            log_text,
+            re.IGNORECASE,
+        )
+        is not None
+    )

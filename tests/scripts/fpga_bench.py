@@ -1,4 +1,4 @@
-"""A bench for scripts/fpga.sh: stand-ins for the compiler, nextpnr and the packer, which take no time and fail on demand.
+"""A bench for scripts/fpga.sh: stand-ins for the compiler, nextpnr and the packer, which are quick and fail on demand.
 
 Yosys is the real one of Debian's. The stand-ins obey files in the bench's folder, so that a test can change its mind
 between two runs.
@@ -77,10 +77,12 @@ def part(kind, delay, to, **more):
     return dict({{"type": kind, "delay": delay, "to": {{"cell": to, "loc": [1, 1], "port": "X"}},
                  "from": {{"cell": more.pop("start", to), "loc": [1, 1], "port": "X"}}}}, **more)
 path = [part("clk-to-q", 0.5, step), part("routing", 1.5, carry, start=step, net="step_s1[1]", sources=[]),
-        part("logic", 0.5, carry), part("routing", 1.25, total, start=carry, net="sum[3]", sources=[]), part("setup", 0.25, total)]
+        part("logic", 0.5, carry), part("routing", 1.25, total, start=carry, net="sum[3]", sources=[]),
+        part("setup", 0.25, total)]
 pathlib.Path("report.json").write_text(json.dumps({{
     "fmax": {{clock: {{"achieved": reached, "constraint": wanted}}}},
-    "utilization": {{"TRELLIS_COMB": {{"used": 40, "available": 24288}}, "TRELLIS_FF": {{"used": 16, "available": 24288}}}},
+    "utilization": {{"TRELLIS_COMB": {{"used": 40, "available": 24288}},
+                    "TRELLIS_FF": {{"used": 16, "available": 24288}}}},
     "critical_paths": [{{"from": "posedge " + clock, "to": "<async>", "path": [part("clk-to-q", 9, total)]}},
                        {{"from": "posedge " + clock, "to": "posedge " + clock, "path": path}}]}}))
 pathlib.Path(option["--textcfg"]).write_text(f".device {{seed}}\\n")
@@ -144,19 +146,35 @@ class fpga_bench(unittest.TestCase):
         (self.folder / "installed_versions").write_text(json.dumps(versions))
 
     def environment(self):
-        return {**os.environ, "EPILINE_BUILD": str(self.folder / "build"), "EPILINE_FPGA_TOOLS": str(self.folder / "tools")}
+        return {
+            **os.environ,
+            "EPILINE_BUILD": str(self.folder / "build"),
+            "EPILINE_FPGA_TOOLS": str(self.folder / "tools"),
+        }
 
     def command(self, *arguments, top="counter.cpp:counter"):
         return [str(root / "scripts" / "fpga.sh"), top, "--target", "ecp5-25k", *arguments]
 
     def run_flow(self, *arguments, top="counter.cpp:counter"):
-        return subprocess.run(self.command(*arguments, top=top), cwd=self.folder, env=self.environment(), text=True,
-                              capture_output=True, check=False)
+        return subprocess.run(
+            self.command(*arguments, top=top),
+            cwd=self.folder,
+            env=self.environment(),
+            text=True,
+            capture_output=True,
+            check=False,
+        )
 
     def run_plain(self, *arguments):
         """With these arguments and no others."""
-        return subprocess.run([str(root / "scripts" / "fpga.sh"), *arguments], cwd=self.folder, env=self.environment(),
-                              text=True, capture_output=True, check=False)
+        return subprocess.run(
+            [str(root / "scripts" / "fpga.sh"), *arguments],
+            cwd=self.folder,
+            env=self.environment(),
+            text=True,
+            capture_output=True,
+            check=False,
+        )
 
     def calls(self):
         """What the stand-ins were called for since the last question."""

@@ -32,13 +32,17 @@ class a_run(fpga_bench):
         self.assertEqual(run["fmax_mhz"], {"median": 130, "best": 190, "worst": 110, "best_seed": 9})
         self.assertEqual((self.folder / "out" / "counter.bit").read_bytes(), b"\xff\x00.device 9\n")
         self.assertEqual(run["bitstream"]["bytes"], 12)
-        self.assertEqual(run["clock"], {"wanted_ns": 8, "wanted_mhz": 125, "scheduled_ns": 8, "estimated_ns": 7.75, "stages": 4})
+        self.assertEqual(
+            run["clock"], {"wanted_ns": 8, "wanted_mhz": 125, "scheduled_ns": 8, "estimated_ns": 7.75, "stages": 4}
+        )
         cells = run["resources"]["cells"]
         self.assertGreater(cells["CCU2C"], 0)
         self.assertEqual(run["resources"]["lut4"], cells["LUT4"] + 2 * cells["CCU2C"] + 6 * cells["TRELLIS_DPR16X4"])
         self.assertEqual(run["resources"]["flip_flops"], 16)
         self.assertEqual(run["tools"]["pyosys"], self.versions["pyosys"])
-        self.assertEqual(run["command"], "scripts/fpga.sh counter.cpp:counter --target ecp5-25k --clock 8 --seed-list 3,1,9")
+        self.assertEqual(
+            run["command"], "scripts/fpga.sh counter.cpp:counter --target ecp5-25k --clock 8 --seed-list 3,1,9"
+        )
         self.assertIn("130.0 MHz median", ended.stdout)
 
     def test_traces_the_critical_path_to_lines_of_the_source(self):
@@ -46,8 +50,10 @@ class a_run(fpga_bench):
         self.assertEqual(ended.returncode, 0, ended.stderr)
         path = self.result()["seeds"][0]["critical_path"]
         self.assertEqual((path["period_ns"], path["logic_ns"], path["routing_ns"]), (4.0, 1.25, 2.75))
-        self.assertEqual([(hop["name"], hop["source"]) for hop in path["hops"]],
-                         [("step_s1", "counter.cpp:3"), ("sum", "counter.cpp:5"), ("total", "counter.cpp:3")])
+        self.assertEqual(
+            [(hop["name"], hop["source"]) for hop in path["hops"]],
+            [("step_s1", "counter.cpp:3"), ("sum", "counter.cpp:5"), ("total", "counter.cpp:3")],
+        )
         self.assertEqual([hop["logic_ns"] + hop["routing_ns"] for hop in path["hops"]], [0.5, 2.0, 1.5])
         self.assertIn("counter.cpp:5", ended.stdout)
 
@@ -68,7 +74,9 @@ class a_run(fpga_bench):
         self.assertFalse((self.folder / "out" / "counter.json").exists())
 
     def test_schedules_for_another_period_than_it_places_for(self):
-        self.assertEqual(self.run_flow("--clock", "9.5", "--hls-clock", "7.5ns", "--seeds", "1", "-o", "out").returncode, 0)
+        self.assertEqual(
+            self.run_flow("--clock", "9.5", "--hls-clock", "7.5ns", "--seeds", "1", "-o", "out").returncode, 0
+        )
         self.assertEqual(self.calls()[0], "hls 7.5ns ecp5")
         self.assertEqual(self.result()["clock"]["scheduled_ns"], 7.5)
         self.assertEqual(self.result()["seeds"][0]["clocks"]["$glbnet$clk$TRELLIS_IO_IN"]["wanted_mhz"], 105.26)
@@ -131,10 +139,18 @@ class finished_steps(fpga_bench):
 
     def kill_while_placing(self, how):
         (self.folder / "nextpnr_sleeps").write_text("")
-        process = subprocess.Popen(self.command(*self.arguments), cwd=self.folder, env=self.environment(), text=True,
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        process = subprocess.Popen(
+            self.command(*self.arguments),
+            cwd=self.folder,
+            env=self.environment(),
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+        )
         deadline = time.monotonic() + 60
-        while not (self.folder / "nextpnr_is_there").exists() and process.poll() is None and time.monotonic() < deadline:
+        while (
+            not (self.folder / "nextpnr_is_there").exists() and process.poll() is None and time.monotonic() < deadline
+        ):
             time.sleep(0.05)
         process.send_signal(how)
         output, errors = process.communicate(timeout=60)
@@ -174,7 +190,9 @@ class bad_input(fpga_bench):
         self.expect_error(self.run_plain("pong"), "unknown top 'pong'", "color_fuzzy")
         self.expect_error(self.run_plain("none.cpp:counter"), "none.cpp' is not a file")
         self.expect_error(self.run_plain("counter.cpp:a b"), "'a b' is not the name of a function")
-        self.expect_error(self.run_plain("color_fuzzy", "--target", "abacus"), "unknown target 'abacus'", "ecp5-85k", "hx8k")
+        self.expect_error(
+            self.run_plain("color_fuzzy", "--target", "abacus"), "unknown target 'abacus'", "ecp5-85k", "hx8k"
+        )
         self.expect_error(self.run_plain("color_fuzzy", "--board", "breadboard"), "unknown board 'breadboard'")
         self.expect_error(self.run_flow("--speed", "9"), "unknown speed grade 9", "6, 7, 8")
 
@@ -198,8 +216,9 @@ class bad_input(fpga_bench):
         self.assertNotIn("nextpnr 1", self.calls())
 
     def test_a_device_too_full_to_place(self):
-        (self.folder / "nextpnr_says").write_text("ERROR: Unable to find legal placement for all cells, design is probably at "
-                                                  "utilisation limit.")
+        (self.folder / "nextpnr_says").write_text(
+            "ERROR: Unable to find legal placement for all cells, design is probably at " "utilisation limit."
+        )
         self.synthesized()
         ended = self.run_flow("--seeds", "1", "-o", "out")
         self.expect_error(ended, "seed 1 failed", "too full", "`levels`")
@@ -232,7 +251,9 @@ class bad_input(fpga_bench):
 
     def test_tools_of_another_version(self):
         self.install({**self.versions, "pyosys": "0.1"})
-        self.expect_error(self.run_flow("-o", "out"), "pyosys 0.1 instead of " + self.versions["pyosys"], "Remove that folder")
+        self.expect_error(
+            self.run_flow("-o", "out"), "pyosys 0.1 instead of " + self.versions["pyosys"], "Remove that folder"
+        )
         self.assertEqual(self.calls(), [])
 
     def test_a_missing_tool(self):
@@ -280,13 +301,17 @@ class boards(unittest.TestCase):
 class rates(unittest.TestCase):
     def test_follow_from_clocks_and_megahertz(self):
         frame = {"width": 640, "height": 480, "levels": 80, "cycles": 307200}
-        self.assertEqual(figures.rates(frame, 153.6, 24576),
-                         {"frames_per_second": 500, "mde_per_second": 12288, "mde_per_second_per_lut4": 0.5})
+        self.assertEqual(
+            figures.rates(frame, 153.6, 24576),
+            {"frames_per_second": 500, "mde_per_second": 12288, "mde_per_second_per_lut4": 0.5},
+        )
 
 
 class too_large(unittest.TestCase):
     def test_names_each_thing_that_runs_out(self):
-        said = devices.too_large({"lut4": 90000, "block_rams": 300, "flip_flops": 5}, devices.targets["ecp5-85k"].capacity)
+        said = devices.too_large(
+            {"lut4": 90000, "block_rams": 300, "flip_flops": 5}, devices.targets["ecp5-85k"].capacity
+        )
         self.assertEqual(len(said), 2)
         self.assertIn("90000 of 83640 LUT4, 6360 too many", said[0])
         self.assertIn("max_width", said[1])
@@ -299,7 +324,9 @@ class published_table(fpga_bench):
     script = root / "scripts" / "results_table.py"
 
     def run_table(self, *arguments):
-        return subprocess.run([sys.executable, "-B", str(self.script), *arguments], capture_output=True, text=True, check=False)
+        return subprocess.run(
+            [sys.executable, "-B", str(self.script), *arguments], capture_output=True, text=True, check=False
+        )
 
     def test_the_committed_page_is_what_the_script_makes(self):
         ended = self.run_table("--check")

@@ -24,9 +24,22 @@ class fusesoc(unittest.TestCase):
 
     def run_target(self, target, **environment):
         path = f"{programs}:{os.environ['PATH']}"
-        return subprocess.run([programs / "fusesoc", "--cores-root", self.folder / "project", "run", "--target", target,
-                               "epiline:stereo:epiline"], cwd=self.folder, text=True, capture_output=True, check=False,
-                              env={**os.environ, "PATH": path, **environment})
+        return subprocess.run(
+            [
+                programs / "fusesoc",
+                "--cores-root",
+                self.folder / "project",
+                "run",
+                "--target",
+                target,
+                "epiline:stereo:epiline",
+            ],
+            cwd=self.folder,
+            text=True,
+            capture_output=True,
+            check=False,
+            env={**os.environ, "PATH": path, **environment},
+        )
 
     def test_the_generated_verilog_is_clean(self):
         ended = self.run_target("lint")

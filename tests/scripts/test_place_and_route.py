@@ -30,7 +30,9 @@ class place_and_route(unittest.TestCase):
         """Starts the run and kills it when nextpnr is at work."""
         log = open(self.folder / "first.log", "w+", encoding="utf-8")
         self.addCleanup(log.close)
-        process = subprocess.Popen(command, cwd=self.folder, stdout=log, stderr=subprocess.STDOUT, start_new_session=True)
+        process = subprocess.Popen(
+            command, cwd=self.folder, stdout=log, stderr=subprocess.STDOUT, start_new_session=True
+        )
         placing = False
         while not placing and process.poll() is None:
             time.sleep(0.2)
@@ -52,9 +54,24 @@ class place_and_route(unittest.TestCase):
         self.check_bitstream()
 
     def test_the_small_device(self):
-        ended = subprocess.run([command[0], f"{root}/tests/formal/modules/window_minimum.cpp:window_minimum", "--target", "hx8k",
-                                "--clock", "20", "--seeds", "1", "-o", "out"], cwd=self.folder, capture_output=True, text=True,
-                               check=False)
+        ended = subprocess.run(
+            [
+                command[0],
+                f"{root}/tests/formal/modules/window_minimum.cpp:window_minimum",
+                "--target",
+                "hx8k",
+                "--clock",
+                "20",
+                "--seeds",
+                "1",
+                "-o",
+                "out",
+            ],
+            cwd=self.folder,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
         self.assertEqual(ended.returncode, 0, ended.stdout + ended.stderr)
         run = json.loads((self.out / "window_minimum.json").read_text(encoding="utf-8"))
         self.assertGreater(run["fmax_mhz"]["median"], 50)
@@ -97,16 +114,18 @@ class place_and_route(unittest.TestCase):
         # Unpacked again it has every wire and every LUT of what nextpnr wrote.
         unpack = pathlib.Path(os.environ["EPILINE_FPGA_TOOLS"]) / "bin" / "ecpunpack"
         subprocess.run([unpack, self.out / f"{top}.bit", self.out / "unpacked.config"], check=True, capture_output=True)
-        routed, unpacked = (settings_of(file.read_text(encoding="utf-8"))
-                            for file in (self.out / "seed_1" / f"{top}.config", self.out / "unpacked.config"))
+        routed, unpacked = (
+            settings_of(file.read_text(encoding="utf-8"))
+            for file in (self.out / "seed_1" / f"{top}.config", self.out / "unpacked.config")
+        )
         missing = routed - unpacked
         self.assertFalse(missing, f"{len(missing)} of {len(routed)} settings are missing, as {sorted(missing)[:3]}")
         self.assertGreater(len(routed), 10000)
 
 
 def settings_of(text):
-    """{(tile, arc or table of a LUT)} of a configuration in Trellis's text format, without what has no bits: the ways out of
-    a slice or a pad, which are fixed or follow from others, and LUTs of ones, as an empty device has them."""
+    """{(tile, arc or table of a LUT)} of a configuration in Trellis's text format, without what has no bits: the ways
+    out of a slice or a pad, which are fixed or follow from others, and LUTs of ones, as an empty device has them."""
     tile, found = "", set()
     for line in text.splitlines():
         line = line.rstrip()
