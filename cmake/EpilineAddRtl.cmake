@@ -14,11 +14,11 @@
 # epiline_verilate(TARGET TOP module VERILOG file.v.. [DEPENDS ..] [OPTIONS ..] [NO_LINT])
 #   The first half of the above: the command that makes <binary dir>/TARGET.model/VTARGET__ALL.a and VTARGET.h.
 #
-# epiline_add_netlist_model(TARGET TOP module VERILOG file.v REPORT report.json [DEPENDS ..])
-#   Synthesizes the Verilog for ECP5 with scripts/synthesize.sh into <binary dir>/TARGET.netlist and makes a model of the
-#   netlist, like epiline_add_verilog_model. The folder is TARGET's property EPILINE_NETLIST_FOLDER.
+# epiline_add_netlist_model(TARGET TOP module VERILOG file.v REPORT report.json [TARGET ecp5|hx8k] [DEPENDS ..])
+#   Synthesizes the Verilog for ECP5 or iCE40 with scripts/synthesize.sh into <binary dir>/TARGET.netlist and makes a model of
+#   the netlist, like epiline_add_verilog_model. The folder is TARGET's property EPILINE_NETLIST_FOLDER.
 #
-# epiline_add_netlist_library(TARGET RTL rtl_target)
+# epiline_add_netlist_library(TARGET RTL rtl_target [TARGET ecp5|hx8k])
 #   The netlist of what epiline_add_rtl compiled, as shared library TARGET_library with the C function epiline_make_model,
 #   for programs that load it when they need it. Not part of the default build: a large netlist takes minutes.
 #
@@ -163,21 +163,29 @@ function(epiline_add_rtl target)
 endfunction()
 
 function(epiline_add_netlist_model target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TOP;VERILOG;REPORT" "DEPENDS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TOP;VERILOG;REPORT;TARGET" "DEPENDS")
   epiline_check_arguments(TOP REPORT VERILOG)
   set(root ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/..)
+  if(NOT arg_TARGET)
+    set(arg_TARGET ecp5)
+  endif()
+  set(family ${arg_TARGET})
+  if(arg_TARGET STREQUAL "hx8k")
+    set(family ice40)
+  endif()
+  set(cells ${root}/tb/cosim/${family}_cells.v)
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}.netlist)
   set(netlist ${folder}/${arg_TOP}_netlist.v)
   add_custom_command(
     OUTPUT ${netlist} ${folder}/resources.json
-    COMMAND ${root}/scripts/synthesize.sh ${arg_VERILOG} ${arg_TOP} -o ${folder}
+    COMMAND ${root}/scripts/synthesize.sh ${arg_VERILOG} ${arg_TOP} -o ${folder} --target ${arg_TARGET}
     DEPENDS ${arg_VERILOG} ${arg_DEPENDS} ${root}/scripts/synthesize.sh
             ${root}/scripts/ecp5_operators.v
             ${root}/scripts/netlist_resources.py
     COMMENT "Synthesizing ${arg_TOP} of ${target}"
     VERBATIM)
   add_custom_target(${target}_netlist DEPENDS ${netlist})
-  epiline_add_verilog_model(${target} TOP ${arg_TOP} VERILOG ${netlist} ${root}/tb/cosim/ecp5_cells.v
+  epiline_add_verilog_model(${target} TOP ${arg_TOP} VERILOG ${netlist} ${cells}
     REPORT ${arg_REPORT} NO_LINT)
   add_dependencies(${target}_verilated ${target}_netlist)
   add_dependencies(${target} ${target}_netlist)
@@ -185,11 +193,12 @@ function(epiline_add_netlist_model target)
 endfunction()
 
 function(epiline_add_netlist_library target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "RTL" "")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "RTL;TARGET" "")
   epiline_check_arguments(RTL)
   get_target_property(folder ${arg_RTL} EPILINE_RTL_FOLDER)
   get_target_property(top ${arg_RTL} EPILINE_RTL_TOP)
-  epiline_add_netlist_model(${target} TOP ${top} VERILOG ${folder}/${top}.v REPORT ${folder}/report.json)
+  epiline_add_netlist_model(${target} TOP ${top} VERILOG ${folder}/${top}.v REPORT ${folder}/report.json
+    TARGET "${arg_TARGET}")
   add_dependencies(${target}_netlist ${arg_RTL}_verilog)
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${target}_library.cpp)
   file(GENERATE OUTPUT ${source} CONTENT "// Entry of a model that is loaded at run time.

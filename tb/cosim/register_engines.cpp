@@ -2,6 +2,7 @@
 
 #include "adaptive_ca_p2_rtl_model.hpp"
 #include "adaptive_ca_rtl_model.hpp"
+#include "color_fuzzy_hx8k_rtl_model.hpp"
 #include "color_fuzzy_p2_rtl_model.hpp"
 #include "color_fuzzy_rtl_model.hpp"
 #include "cosim/engines.hpp"
@@ -27,6 +28,8 @@ constexpr built_design built_designs[] = {
      "color_fuzzy_p2_netlist_library"},
     {"adaptive_ca_p2", EPILINE_ADAPTIVE_CA_P2_GRAPH, make_adaptive_ca_p2_rtl_model, EPILINE_ADAPTIVE_CA_P2_NETLIST,
      "adaptive_ca_p2_netlist_library"},
+    {"color_fuzzy_hx8k", EPILINE_COLOR_FUZZY_HX8K_GRAPH, make_color_fuzzy_hx8k_rtl_model,
+     EPILINE_COLOR_FUZZY_HX8K_NETLIST, "color_fuzzy_hx8k_netlist_library"},
 };
 
 }  // namespace
@@ -40,7 +43,7 @@ void register_engines(eval::engine_registry& registry) {
         {built.name, "rtl", "the generated Verilog in Verilator, clock by clock",
          [&built](const eval::design_description& design) { return make_model_engine(design, built.make_model); }});
     registry.add({built.name, "netlist",
-                  "the ECP5 netlist after Yosys in Verilator (built on first use, which takes minutes)",
+                  "the netlist after Yosys in Verilator (built on first use, which takes minutes)",
                   [&built](const eval::design_description& design) {
                     return make_netlist_engine(
                         design, built.netlist_library,

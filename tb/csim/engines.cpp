@@ -5,6 +5,7 @@
 #include "csim/native_top.hpp"
 #include "tops/adaptive_ca.hpp"
 #include "tops/color_fuzzy.hpp"
+#include "tops/color_fuzzy_hx8k.hpp"
 
 namespace {
 using color_fuzzy_types = epiline::tops::color_fuzzy_interface<epiline::tops::color_fuzzy_config>;
@@ -12,6 +13,7 @@ using adaptive_ca_types = epiline::tops::adaptive_ca_interface<epiline::tops::ad
 using color_fuzzy_p2_config = epiline::tops::two_pixels_a_beat_of<epiline::tops::color_fuzzy_config>;
 using adaptive_ca_p2_config = epiline::tops::two_pixels_a_beat_of<epiline::tops::adaptive_ca_config>;
 using color_fuzzy_p2_types = epiline::tops::color_fuzzy_interface<color_fuzzy_p2_config>;
+using color_fuzzy_hx8k_types = epiline::tops::color_fuzzy_interface<epiline::tops::color_fuzzy_hx8k_config>;
 using adaptive_ca_p2_types = epiline::tops::adaptive_ca_interface<adaptive_ca_p2_config>;
 
 template <class Types>
@@ -31,6 +33,7 @@ using adaptive_ca_top = void(hls::stream<typename Types::video_beat>& left,
 // The tops themselves, from hls/tops/*.cpp; tops that only the compiler calls need no declaration in a header.
 color_fuzzy_top<color_fuzzy_types> color_fuzzy;
 color_fuzzy_top<color_fuzzy_p2_types> color_fuzzy_p2;
+color_fuzzy_top<color_fuzzy_hx8k_types> color_fuzzy_hx8k;
 adaptive_ca_top<adaptive_ca_types> adaptive_ca;
 adaptive_ca_top<adaptive_ca_p2_types> adaptive_ca_p2;
 
@@ -101,6 +104,7 @@ void register_engines(eval::engine_registry& registry) {
   add_color_fuzzy<tops::color_fuzzy_config, color_fuzzy>(registry, "color_fuzzy");
   add_adaptive_ca<tops::adaptive_ca_config, adaptive_ca>(registry, "adaptive_ca");
   add_color_fuzzy<color_fuzzy_p2_config, color_fuzzy_p2>(registry, "color_fuzzy_p2");
+  add_color_fuzzy<tops::color_fuzzy_hx8k_config, color_fuzzy_hx8k>(registry, "color_fuzzy_hx8k");
   add_adaptive_ca<adaptive_ca_p2_config, adaptive_ca_p2>(registry, "adaptive_ca_p2");
 }
 

@@ -55,6 +55,15 @@ constexpr design_description designs[] = {
      .pixels_per_beat = 2,
      .parameters = adaptive_ca_parameters,
      .same_maps_as = "adaptive_ca"},
+    {.name = "color_fuzzy_hx8k",
+     .meaning = "color_fuzzy for a small device: 160x120, 16 levels, eight clocks a pixel",
+     .max_width = 160,
+     .max_height = 120,
+     .max_levels = 16,
+     .default_levels = 16,
+     .pixels_per_beat = 1,
+     .parameters = color_fuzzy_parameters,
+     .same_maps_as = "color_fuzzy"},
 };
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {

@@ -70,7 +70,7 @@ void register_engines(eval::engine_registry& registry) {
     registry.add({design, "golden", "reference model, whole image, written from the equations",
                   [model](const eval::design_description&) { return std::make_unique<golden_engine>(model); }});
   };
-  for (const char* design : {"color_fuzzy", "color_fuzzy_p2"}) add(design, run_color_fuzzy);
+  for (const char* design : {"color_fuzzy", "color_fuzzy_p2", "color_fuzzy_hx8k"}) add(design, run_color_fuzzy);
   for (const char* design : {"adaptive_ca", "adaptive_ca_p2"}) add(design, run_adaptive_ca);
 }
 

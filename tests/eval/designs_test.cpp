@@ -54,7 +54,9 @@ TEST(designs, that_are_other_speeds_name_the_design_whose_maps_and_parameters_th
     ASSERT_NE(same, nullptr) << design.name;
     EXPECT_TRUE(same->same_maps_as.empty()) << design.name;
     EXPECT_EQ(default_parameters(design), default_parameters(*same)) << design.name;
-    EXPECT_NE(design.pixels_per_beat, same->pixels_per_beat) << design.name;
+    EXPECT_NE(std::pair(design.pixels_per_beat, design.max_levels), std::pair(same->pixels_per_beat, same->max_levels))
+        << design.name;
+    EXPECT_LE(design.max_levels, same->max_levels) << design.name;
   }
   EXPECT_EQ(find_design("adaptive_ca_p2")->same_maps_as, "adaptive_ca");
 }
