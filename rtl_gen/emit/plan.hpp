@@ -62,8 +62,8 @@ struct memory_plan {
   bool never_meets = true;       // a read never looks at the word written in the same clock
 };
 
-/// Flip-flops that hold the same bits, each for some of the readers: one that drives too many is slow, and far from most
-/// of them. Copy 0 is the flip-flop itself.
+/// Flip-flops that hold the same bits, each for some of the readers: one that drives too many is slow, and far from
+/// most of them. Copy 0 is the flip-flop itself.
 struct copies {
   std::vector<schedule::reader> first_reader;  // per copy: it serves the readers from this one to the next copy's
 
@@ -79,8 +79,8 @@ struct plan {
   std::vector<memory_plan> memories;
   std::map<std::pair<dataflow::node_id, int>, copies> value_copies;  // of what waits in flip-flops, by value and stage
   std::vector<copies> valid_copies;                                  // per stage; stage 0 has none
-  int last_valid = 1;              // the last stage that needs its valid bit
-  std::uint64_t copy_bits = 0;     // flip-flops of waiting values
+  int last_valid = 1;                                                // the last stage that needs its valid bit
+  std::uint64_t copy_bits = 0;                                       // flip-flops of waiting values
   std::uint64_t spare_bits = 0;    // flip-flops of value_copies and valid_copies beside the first ones
   std::uint64_t settled_bits = 0;  // flip-flops of settled values and of patient registers' next values
 };

@@ -104,8 +104,7 @@ node_id multiply_by_bits(builder& b, const node& n, const factor& narrow, node_i
   node_id sum = none;
   for (unsigned bit = 0; bit < b.width(narrow.value) && bit < n.width; ++bit) {
     const node_id multiple = b.slice(other, 0, n.width - bit);
-    const node_id chosen =
-        b.select(b.slice(narrow.value, bit, 1), multiple, b.constant(n.width - bit, 0));
+    const node_id chosen = b.select(b.slice(narrow.value, bit, 1), multiple, b.constant(n.width - bit, 0));
     const node_id placed = bit == 0 ? chosen : b.concat({chosen, b.constant(bit, 0)});
     sum = sum == none ? placed : b.add(sum, placed);
   }

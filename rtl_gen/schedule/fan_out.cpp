@@ -98,16 +98,29 @@ std::vector<double> count_readers(const graph& g, const delay_model& model) {
   return inputs;
 }
 
-std::vector<double> find_spread(const graph& g, const delay_model& model) {
+spread find_spread(const graph& g, const delay_model& model) {
   const delay_parameters& p = model.parameters();
-  const std::vector<double> loads = count_readers(g, model);
-  std::vector<double> spread(g.nodes.size(), 0);
-  for (node_id id = 0; id < g.nodes.size(); ++id) {
-    // Wires add nothing: the value behind them has the load already. A register's value comes from copies.
-    if (is_wire(g, id) || model.latency(g, id) > 0) continue;
-    spread[id] = p.spread_doubling * std::max(0.0, std::log2(std::max(1.0, loads[id]) / p.spread_from));
+  const std::vector<double> readers = count_readers(g, model);
+  const std::size_t count = g.nodes.size();
+  std::vector<double> whole(count, 0);
+  spread found{std::vector<double>(count, 0), std::vector<double>(count, 0)};
+  for (node_id id = 0; id < count; ++id) {
+    const node& n = g.nodes[id];
+    // State with many readers is counted as if it had few: a recurrence cannot be pipelined, and what the state decides
+    // outside of it is in flip-flops of its own.
+    if (n.kind == operation::constant || n.kind == operation::register_value) continue;
+    double operands = 0;
+    for (const node_id operand : n.operands) operands = std::max(operands, whole[operand]);
+    if (is_wire(g, id) && !n.operands.empty()) {
+      whole[id] = operands;  // the value behind the wire has these readers, too
+      continue;
+    }
+    whole[id] = p.spread_doubling * std::max(0.0, std::log2(std::max(1.0, readers[id]) / p.spread_from));
+    found.before[id] = std::min(p.spread_of_copies * operands, p.most_spread_of_copies);
+    // A RAM's word begins its stage: what comes after is its readers' `before`.
+    if (model.latency(g, id) == 0) found.after[id] = (1 - p.spread_of_copies) * whole[id];
   }
-  return spread;
+  return found;
 }
 
 }  // namespace epiline::schedule

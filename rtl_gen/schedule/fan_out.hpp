@@ -26,8 +26,12 @@ struct load {
 /// Per node: the inputs that one bit of its result drives.
 [[nodiscard]] std::vector<double> count_readers(const dataflow::graph& g, const delay_model& model);
 
-/// Per node: nanoseconds by which its many readers delay its result beyond the wire that delay() counts, where no
-/// register, of which there may be copies, stands between.
-[[nodiscard]] std::vector<double> find_spread(const dataflow::graph& g, const delay_model& model);
+/// What many readers cost beyond the wire that delay_model::delay() counts, in nanoseconds per node.
+struct spread {
+  std::vector<double> after;   // on the way from the node's result to readers in its own stage
+  std::vector<double> before;  // from the operands to the node, also where they come from flip-flops: not every reader
+                               // can be next to the flip-flop, or to the copy of it, that it reads
+};
+[[nodiscard]] spread find_spread(const dataflow::graph& g, const delay_model& model);
 
 }  // namespace epiline::schedule

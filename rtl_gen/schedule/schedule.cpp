@@ -171,7 +171,7 @@ class problem {
   double trace(node_id from, variable to, std::vector<chain_link>& chain) const;
 
   [[nodiscard]] double node_delay(node_id id) const { return delay_[id]; }
-  [[nodiscard]] double node_spread(node_id id) const { return spread_[id]; }
+  [[nodiscard]] double node_spread(node_id id) const { return spread_.after[id]; }
 
  private:
   void collect_accesses();
@@ -187,7 +187,7 @@ class problem {
   std::uint32_t count_ = 0;
   std::vector<memory_accesses> accesses_;
   std::vector<double> delay_;
-  std::vector<double> spread_;
+  spread spread_;
   std::vector<int> latency_;
   std::vector<std::vector<way>> ways_;  // per node
   std::vector<char> in_issue_cone_;     // per node
@@ -208,28 +208,28 @@ void problem::collect_ways() {
   latency_.resize(g_.nodes.size());
   ways_.resize(g_.nodes.size());
   for (node_id id = 0; id < g_.nodes.size(); ++id) {
-    delay_[id] = model_.delay(g_, id);
+    delay_[id] = spread_.before[id] + model_.delay(g_, id);
     latency_[id] = model_.latency(g_, id);
     if (settled_[id]) continue;
     const node& n = g_.nodes[id];
     for (std::size_t i = 0; i < n.operands.size(); ++i) {
       const node_id operand = n.operands[i];
-      if (!settled_[operand]) ways_[operand].push_back({of_node(id), spread_[operand] + model_.entry(g_, id, i)});
+      if (!settled_[operand]) ways_[operand].push_back({of_node(id), spread_.after[operand] + model_.entry(g_, id, i)});
     }
     if (n.kind == operation::read && !settled_[n.operands[0]]) {
-      ways_[n.operands[0]].push_back({0, spread_[n.operands[0]] + model_.parameters().issue});
+      ways_[n.operands[0]].push_back({0, spread_.after[n.operands[0]] + model_.parameters().issue});
     }
   }
   for (register_id r = 0; r < g_.registers.size(); ++r) {
     const dataflow::register_state& state = g_.registers[r];
-    if (!settled_[state.next]) ways_[state.next].push_back({of_update(r), spread_[state.next]});
+    if (!settled_[state.next]) ways_[state.next].push_back({of_update(r), spread_.after[state.next]});
     if (!settled_[state.enable]) {
-      ways_[state.enable].push_back({of_update(r), spread_[state.enable] + model_.enable_entry()});
+      ways_[state.enable].push_back({of_update(r), spread_.after[state.enable] + model_.enable_entry()});
     }
   }
   // The patient mark only starts the hold: it is gated with the issue, which does not wait for it.
   if (g_.patient != none && !settled_[g_.patient]) {
-    ways_[g_.patient].push_back({0, spread_[g_.patient] + model_.enable_entry()});
+    ways_[g_.patient].push_back({0, spread_.after[g_.patient] + model_.enable_entry()});
   }
 }
 
@@ -407,7 +407,7 @@ node_id problem::add_chains(double period, double calm, const std::vector<std::u
 void problem::add_distribution(const std::vector<std::uint32_t>& component,
                                std::vector<constraint>& constraints) const {
   const std::vector<double> readers = count_readers(g_, model_);
-  const double many = 2.0 * model_.parameters().most_readers;
+  const double many = model_.parameters().very_many_readers;
   for (node_id id = 0; id < g_.nodes.size(); ++id) {
     if (settled_[id] || many == 0 || readers[id] < many || is_wire(g_, id) || latency_[id] > 0) continue;
     for (const way& w : ways_[id]) {
@@ -615,12 +615,12 @@ struct timing {
 timing analyse(const graph& g, const delay_model& model, const result& s) {
   timing t;
   const delay_parameters& p = model.parameters();
-  const std::vector<double> spread = find_spread(g, model);
+  const spread readers = find_spread(g, model);
   t.arrival.assign(g.nodes.size(), p.launch);
   t.previous.assign(g.nodes.size(), none);
   const auto finish = [&](node_id at, int stage, double entry) {
     const bool chained = s.stage[at] != settled && s.stage[at] == stage && s.available[at] == stage;
-    const double total = (chained ? t.arrival[at] + spread[at] : p.launch) + entry + p.capture;
+    const double total = (chained ? t.arrival[at] + readers.after[at] : p.launch) + entry + p.capture;
     if (total > t.worst) {
       t.worst = total;
       t.worst_end = at;
@@ -635,14 +635,14 @@ timing analyse(const graph& g, const delay_model& model, const result& s) {
       const bool chained =
           s.stage[id] != settled && s.available[operand] == s.stage[id] && s.stage[operand] == s.stage[id];
       const bool wired = s.stage[id] == settled && s.stage[operand] == settled && !is_settled_register(g, s, operand);
-      const double from = chained || wired ? t.arrival[operand] + (chained ? spread[operand] : 0) : p.launch;
+      const double from = chained || wired ? t.arrival[operand] + (chained ? readers.after[operand] : 0) : p.launch;
       const double at = from + model.entry(g, id, i);
       if (at > in || (at >= in && t.previous[id] == none && chained)) {
         in = at;
         t.previous[id] = chained ? operand : none;
       }
     }
-    t.arrival[id] = in + model.delay(g, id);
+    t.arrival[id] = in + readers.before[id] + model.delay(g, id);
     const double total = t.arrival[id] + p.capture;
     if (n.kind != operation::constant && total > t.worst) {
       t.worst = total;
@@ -925,7 +925,8 @@ std::vector<recurrence_delay> recurrences(const graph& g, const delay_model& mod
     double delay = -1;
     const auto end = [&](node_id id, double entry) {
       if (s.stage[id] == settled || at[id] < 0 || g.nodes[id].kind == operation::register_value) return;
-      if (component(id) == system.component[p.of_register(r)]) delay = std::max(delay, at[id] + p.node_spread(id) + entry);
+      if (component(id) == system.component[p.of_register(r)])
+        delay = std::max(delay, at[id] + p.node_spread(id) + entry);
     };
     end(g.registers[r].next, 0);
     end(g.registers[r].enable, model.enable_entry());
