@@ -44,7 +44,8 @@ struct constraint {
 /// A combinational way out of a node: into another node, or into something that ends the stage.
 struct way {
   variable to = 0;
-  double entry = 0;  // nanoseconds before the target's own delay
+  double entry = 0;   // nanoseconds before the target's own delay
+  double spread = 0;  // and what it costs more because the value has many readers
 };
 
 struct memory_accesses {
@@ -171,7 +172,6 @@ class problem {
   double trace(node_id from, variable to, std::vector<chain_link>& chain) const;
 
   [[nodiscard]] double node_delay(node_id id) const { return delay_[id]; }
-  [[nodiscard]] double node_spread(node_id id) const { return spread_.after[id]; }
 
  private:
   void collect_accesses();
@@ -208,28 +208,28 @@ void problem::collect_ways() {
   latency_.resize(g_.nodes.size());
   ways_.resize(g_.nodes.size());
   for (node_id id = 0; id < g_.nodes.size(); ++id) {
-    delay_[id] = spread_.before[id] + model_.delay(g_, id);
+    delay_[id] = model_.delay(g_, id);
     latency_[id] = model_.latency(g_, id);
     if (settled_[id]) continue;
     const node& n = g_.nodes[id];
     for (std::size_t i = 0; i < n.operands.size(); ++i) {
       const node_id operand = n.operands[i];
-      if (!settled_[operand]) ways_[operand].push_back({of_node(id), spread_.after[operand] + model_.entry(g_, id, i)});
+      if (!settled_[operand]) ways_[operand].push_back({of_node(id), model_.entry(g_, id, i), spread_.after[operand]});
     }
     if (n.kind == operation::read && !settled_[n.operands[0]]) {
-      ways_[n.operands[0]].push_back({0, spread_.after[n.operands[0]] + model_.parameters().issue});
+      ways_[n.operands[0]].push_back({0, model_.parameters().issue, spread_.after[n.operands[0]]});
     }
   }
   for (register_id r = 0; r < g_.registers.size(); ++r) {
     const dataflow::register_state& state = g_.registers[r];
-    if (!settled_[state.next]) ways_[state.next].push_back({of_update(r), spread_.after[state.next]});
+    if (!settled_[state.next]) ways_[state.next].push_back({of_update(r), 0, spread_.after[state.next]});
     if (!settled_[state.enable]) {
-      ways_[state.enable].push_back({of_update(r), spread_.after[state.enable] + model_.enable_entry()});
+      ways_[state.enable].push_back({of_update(r), model_.enable_entry(), spread_.after[state.enable]});
     }
   }
   // The patient mark only starts the hold: it is gated with the issue, which does not wait for it.
   if (g_.patient != none && !settled_[g_.patient]) {
-    ways_[g_.patient].push_back({0, spread_.after[g_.patient] + model_.enable_entry()});
+    ways_[g_.patient].push_back({0, model_.enable_entry(), spread_.after[g_.patient]});
   }
 }
 
@@ -340,12 +340,15 @@ node_id problem::add_chains(double period, double calm, const std::vector<std::u
   const double full_budget = period - around;
   // Whoever is on the way between two of one component is of that component: what a chain's part may not do, the whole
   // chain may not do either.
-  const auto budget_of = [&](node_id start, variable end) {
-    return component[of_node(start)] == component[end] ? full_budget : calm - around;
+  // Nothing shortens a recurrence's wires, so these do not count there.
+  std::vector<double> arrival(count_, -1);
+  std::vector<double> spread_arrival(count_, -1);  // with what many readers cost
+  const auto too_long = [&](node_id start, variable end) {
+    if (component[of_node(start)] == component[end]) return arrival[end] > full_budget;
+    return spread_arrival[end] > calm - around;
   };
   // Backwards, so that what a node's successors already forbid need not be forbidden again.
   std::vector<std::vector<variable>> forbidden(g_.nodes.size());
-  std::vector<double> arrival(count_, -1);
   std::vector<std::uint32_t> implied(count_, none);
   for (node_id start = static_cast<node_id>(g_.nodes.size()); start-- > 0;) {
     if (settled_[start]) continue;
@@ -365,19 +368,22 @@ node_id problem::add_chains(double period, double calm, const std::vector<std::u
     // A chain that starts with a wire is no longer than the one that starts behind it, unless it ends right there.
     std::priority_queue<variable, std::vector<variable>, std::greater<>> work;
     std::vector<variable> touched;
-    const auto reach = [&](const way& w, double from) {
+    const auto reach = [&](const way& w, double from, double spread_from) {
       double& a = arrival[w.to];
       const node_id target = node_of(w.to);
-      const double at = from + w.entry + (target == none ? 0 : delay_[target]);
+      const double here = w.entry + (target == none ? 0 : delay_[target]);
+      const double at = from + here;
+      const double spread_at = spread_from + here + w.spread + (target == none ? 0 : spread_.before[target]);
       if (a < 0) {
         if (w.to != 0) work.push(w.to);  // the decision to issue comes last: it is looked at when all ways are known
         touched.push_back(w.to);
       }
       a = std::max(a, at);
+      spread_arrival[w.to] = std::max(spread_arrival[w.to], spread_at);
     };
     for (const way& w : ways_[start]) {
-      if (wire && w.entry == 0 && node_of(w.to) != none) continue;
-      reach(w, delay_[start]);
+      if (wire && w.entry == 0 && w.spread == 0 && node_of(w.to) != none) continue;
+      reach(w, delay_[start], delay_[start] + spread_.before[start]);
     }
     const auto forbid = [&](variable v) {
       constraints.push_back({of_node(start), v, 1, reason::chain});
@@ -390,16 +396,16 @@ node_id problem::add_chains(double period, double calm, const std::vector<std::u
         if (!wire) mine.push_back(v);
         continue;
       }
-      if (arrival[v] > budget_of(start, v)) {
+      if (too_long(start, v)) {
         forbid(v);
         continue;
       }
       const node_id target = node_of(v);
       if (target == none || latency_[target] > 0) continue;
-      for (const way& w : ways_[target]) reach(w, arrival[v]);
+      for (const way& w : ways_[target]) reach(w, arrival[v], spread_arrival[v]);
     }
-    if (arrival[0] > budget_of(start, 0) && implied[0] != start) forbid(0);
-    for (const variable v : touched) arrival[v] = -1;
+    if (arrival[0] >= 0 && too_long(start, 0) && implied[0] != start) forbid(0);
+    for (const variable v : touched) arrival[v] = spread_arrival[v] = -1;
   }
   return none;
 }
@@ -615,12 +621,11 @@ struct timing {
 timing analyse(const graph& g, const delay_model& model, const result& s) {
   timing t;
   const delay_parameters& p = model.parameters();
-  const spread readers = find_spread(g, model);
   t.arrival.assign(g.nodes.size(), p.launch);
   t.previous.assign(g.nodes.size(), none);
   const auto finish = [&](node_id at, int stage, double entry) {
     const bool chained = s.stage[at] != settled && s.stage[at] == stage && s.available[at] == stage;
-    const double total = (chained ? t.arrival[at] + readers.after[at] : p.launch) + entry + p.capture;
+    const double total = (chained ? t.arrival[at] : p.launch) + entry + p.capture;
     if (total > t.worst) {
       t.worst = total;
       t.worst_end = at;
@@ -635,14 +640,14 @@ timing analyse(const graph& g, const delay_model& model, const result& s) {
       const bool chained =
           s.stage[id] != settled && s.available[operand] == s.stage[id] && s.stage[operand] == s.stage[id];
       const bool wired = s.stage[id] == settled && s.stage[operand] == settled && !is_settled_register(g, s, operand);
-      const double from = chained || wired ? t.arrival[operand] + (chained ? readers.after[operand] : 0) : p.launch;
+      const double from = chained || wired ? t.arrival[operand] : p.launch;
       const double at = from + model.entry(g, id, i);
       if (at > in || (at >= in && t.previous[id] == none && chained)) {
         in = at;
         t.previous[id] = chained ? operand : none;
       }
     }
-    t.arrival[id] = in + readers.before[id] + model.delay(g, id);
+    t.arrival[id] = in + model.delay(g, id);
     const double total = t.arrival[id] + p.capture;
     if (n.kind != operation::constant && total > t.worst) {
       t.worst = total;
@@ -916,7 +921,7 @@ std::vector<recurrence_delay> recurrences(const graph& g, const delay_model& mod
     for (std::size_t i = 0; i < n.operands.size(); ++i) {
       const node_id operand = n.operands[i];
       if (s.stage[operand] == settled || at[operand] < 0 || component(operand) != component(id)) continue;
-      at[id] = std::max(at[id], at[operand] + p.node_spread(operand) + model.entry(g, id, i) + p.node_delay(id));
+      at[id] = std::max(at[id], at[operand] + model.entry(g, id, i) + p.node_delay(id));
     }
   }
   std::vector<recurrence_delay> all;
@@ -925,8 +930,7 @@ std::vector<recurrence_delay> recurrences(const graph& g, const delay_model& mod
     double delay = -1;
     const auto end = [&](node_id id, double entry) {
       if (s.stage[id] == settled || at[id] < 0 || g.nodes[id].kind == operation::register_value) return;
-      if (component(id) == system.component[p.of_register(r)])
-        delay = std::max(delay, at[id] + p.node_spread(id) + entry);
+      if (component(id) == system.component[p.of_register(r)]) delay = std::max(delay, at[id] + entry);
     };
     end(g.registers[r].next, 0);
     end(g.registers[r].enable, model.enable_entry());

@@ -72,7 +72,7 @@ TEST(delay_model, prices_wires_at_nothing_and_carries_by_their_length) {
 
 TEST(delay_model, makes_results_with_many_readers_slow) {
   const delay_model model("ecp5");
-  const graph few = make_many_readers(2);
+  const graph few = make_adder_pipeline();
   const graph many = make_many_readers(80);
   const auto slowest = [&](const graph& g) {
     const schedule::spread spread = schedule::find_spread(g, model);
