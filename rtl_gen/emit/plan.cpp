@@ -157,7 +157,7 @@ copies divide_readers(std::vector<std::pair<schedule::reader, double>>& readers,
   double total = 0;
   for (const auto& [by, inputs] : readers) total += inputs;
   const double count = std::ceil(total / most);
-  if (most == 0 || count <= 1) return divided;
+  if (count <= 1) return divided;
   std::sort(readers.begin(), readers.end());
   double before = 0;
   for (const auto& [by, inputs] : readers) {
@@ -236,7 +236,9 @@ plan make_plan(const graph& g, const schedule::delay_model& model, const schedul
       same->writes.push_back(id);
     } else {
       const auto in_flight = static_cast<unsigned>(s.stage[id] + credit_round_trip);
-      p.fifos.push_back({n.object, {id}, s.stage[id], std::bit_ceil(in_flight)});
+      const unsigned depth = std::bit_ceil(in_flight);
+      const bool block = depth > model.parameters().distributed_max_words;
+      p.fifos.push_back({n.object, {id}, s.stage[id], depth, block ? storage_kind::block : storage_kind::distributed});
     }
   }
   std::sort(p.fifos.begin(), p.fifos.end(), [](const output_fifo& a, const output_fifo& b) { return a.port < b.port; });

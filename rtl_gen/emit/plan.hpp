@@ -46,6 +46,7 @@ struct output_fifo {
   std::vector<dataflow::node_id> writes;
   int stage = 0;
   unsigned depth = 0;  // a power of two, larger than all that can be in flight
+  schedule::storage_kind storage = schedule::storage_kind::distributed;
 };
 
 struct read_port {

@@ -106,7 +106,7 @@ json make_report(const graph& g, const schedule::delay_model& model, const sched
     const dataflow::port& port = g.ports[f.port];
     latency[port.name] = f.stage + 3;
     fifos.push_back({{"port", port.name}, {"stage", f.stage}, {"depth", f.depth}, {"width", port.width}});
-    if (f.depth > model.parameters().distributed_max_words) {
+    if (f.storage == storage_kind::block) {
       block_rams += model.blocks(f.depth, port.width);
     } else {
       fifo_luts += model.distributed_area(f.depth, port.width);

@@ -108,7 +108,7 @@ endmodule
 `endif)";
 
 /// A module of its own, because synthesis makes one flip-flop of several that hold the same bits unless each is one it
-/// does not look into until the end (scripts/ecp5_operators.v).
+/// does not look into until the end (scripts/ecp5_copies.v).
 constexpr const char* copy_module = R"(
 `ifndef EPILINE_COPY
 `define EPILINE_COPY
@@ -865,10 +865,12 @@ void writer::write_copies(int stage) {
       }
     }
   }
-  for (std::size_t copy = 1; copy < plan_.valid_copies[std::min(stage, plan_.last_valid)].count(); ++copy) {
-    if (stage > plan_.last_valid) break;
-    reader_ = plan_.valid_copies[stage].first_reader[copy];
-    write_copy(copy_name(fmt::format("valid_s{}", stage), copy), 1, "rst", valid(stage - 1));
+  if (stage <= plan_.last_valid) {
+    const copies& all = plan_.valid_copies[stage];
+    for (std::size_t copy = 1; copy < all.count(); ++copy) {
+      reader_ = all.first_reader[copy];
+      write_copy(copy_name(fmt::format("valid_s{}", stage), copy), 1, "rst", valid(stage - 1));
+    }
   }
   reader_ = 0;
   for (std::size_t i = 0; i < plan_.lines.size(); ++i) {
@@ -1258,8 +1260,7 @@ void writer::write_outputs() {
           last ? operand(n.operands[1], stage) : fmt::format("{} ? {} : ", predicate, operand(n.operands[1], stage));
     }
     line("  wire {}_push = {};", name, always ? valid(stage) : fmt::format("{} & ({})", valid(stage), pushes));
-    const bool has_block = fifo.depth > model_.parameters().distributed_max_words;
-    line("  (* ram_style = \"{}\", no_rw_check *)", has_block ? "block" : "distributed");
+    line("  (* ram_style = \"{}\", no_rw_check *)", name_of(fifo.storage));
     line("  reg {}{}_fifo [0:{}];", range_of(port.width), name, fifo.depth - 1);
     line("  reg [{}:0] {}_in, {}_out;", counter - 1, name, name);
     line("  reg {}{}_word;", range_of(port.width), name);

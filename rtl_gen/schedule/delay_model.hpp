@@ -31,18 +31,18 @@ struct delay_parameters {
   double distributed_read = 0;         // address to word for 16 words; every doubling costs half a LUT level
   unsigned distributed_max_words = 0;  // 0: the target has no LUT RAM
   double memory_setup = 0;             // set-up of a RAM's address, data and enable inputs
-  double issue = 0;       // from a read's predicate through the decision to issue, one LUT that also takes in the
-                          // predicate's last gate, to the clock enables it drives
-  double calm_share = 1;  // of the period, for chains outside recurrences: a register there costs no throughput, and
-                          // wires come out longer than estimated somewhere in every placement
-  double spread_doubling = 0;   // what every doubling of a value's readers adds to its wire, ...
-  double spread_from = 1;       // ... from so many on
-  double spread_of_copies = 0;  // the share of it that stays where the value comes from flip-flops, which have copies
+  double issue = 0;            // from a read's predicate through the decision to issue, one LUT that also takes in the
+                               // predicate's last gate, to the clock enables it drives
+  double spread_doubling = 0;  // what every doubling of a value's readers adds to its wire, from spread_from on
+  // The same for all targets: these hang on the shape of designs more than on the device.
+  double calm_share = 0.85;  // of the period, for chains outside recurrences: a register there costs no throughput, and
+                             // wires come out longer than estimated somewhere in every placement
+  double spread_from = 8;    // readers
+  double spread_of_copies = 0.5;     // the share of it that stays where the value comes from flip-flops with copies
   double most_spread_of_copies = 1;  // nanoseconds
-  unsigned most_readers = 0;         // inputs that one flip-flop drives: from there on it has copies
-  unsigned very_many_readers =
-      0;  // inputs from which on a value is in a flip-flop for a clock before its copies are; 0: never
-  unsigned block_bits = 0;  // of one block RAM
+  unsigned most_readers = 16;        // inputs that one flip-flop drives: from there on it has copies
+  unsigned very_many_readers = 64;   // from here on a value is in a flip-flop for a clock before its copies are
+  unsigned block_bits = 0;           // of one block RAM
   unsigned block_max_width = 0;
 };
 

@@ -92,18 +92,13 @@ std::vector<load> find_loads(const graph& g, const delay_model& model) {
   return all;
 }
 
-std::vector<double> count_readers(const graph& g, const delay_model& model) {
-  std::vector<double> inputs(g.nodes.size(), 0);
-  for (const load& l : find_loads(g, model)) inputs[l.value] += l.inputs;
-  return inputs;
-}
-
 spread find_spread(const graph& g, const delay_model& model) {
   const delay_parameters& p = model.parameters();
-  const std::vector<double> readers = count_readers(g, model);
   const std::size_t count = g.nodes.size();
-  std::vector<double> whole(count, 0);
-  spread found{std::vector<double>(count, 0), std::vector<double>(count, 0)};
+  const std::vector<double> zeros(count, 0);
+  std::vector<double> whole = zeros;
+  spread found{zeros, zeros, zeros};
+  for (const load& l : find_loads(g, model)) found.readers[l.value] += l.inputs;
   for (node_id id = 0; id < count; ++id) {
     const node& n = g.nodes[id];
     // State with many readers is counted as if it had few: a recurrence cannot be pipelined, and what the state decides
@@ -115,7 +110,7 @@ spread find_spread(const graph& g, const delay_model& model) {
       whole[id] = operands;  // the value behind the wire has these readers, too
       continue;
     }
-    whole[id] = p.spread_doubling * std::max(0.0, std::log2(std::max(1.0, readers[id]) / p.spread_from));
+    whole[id] = p.spread_doubling * std::max(0.0, std::log2(std::max(1.0, found.readers[id]) / p.spread_from));
     found.before[id] = std::min(p.spread_of_copies * operands, p.most_spread_of_copies);
     // A RAM's word begins its stage: what comes after is its readers' `before`.
     if (model.latency(g, id) == 0) found.after[id] = (1 - p.spread_of_copies) * whole[id];

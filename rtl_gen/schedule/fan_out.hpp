@@ -23,14 +23,12 @@ struct load {
 /// an extension) loads the wire's operand, too.
 [[nodiscard]] std::vector<load> find_loads(const dataflow::graph& g, const delay_model& model);
 
-/// Per node: the inputs that one bit of its result drives.
-[[nodiscard]] std::vector<double> count_readers(const dataflow::graph& g, const delay_model& model);
-
 /// What many readers cost beyond the wire that delay_model::delay() counts, in nanoseconds per node.
 struct spread {
-  std::vector<double> after;   // on the way from the node's result to readers in its own stage
-  std::vector<double> before;  // from the operands to the node, also where they come from flip-flops: not every reader
-                               // can be next to the flip-flop, or to the copy of it, that it reads
+  std::vector<double> readers;  // the inputs that one bit of the node's result drives
+  std::vector<double> after;    // on the way from the node's result to readers in its own stage
+  std::vector<double> before;   // from the operands to the node, also where they come from flip-flops: not every reader
+                                // can be next to the flip-flop, or to the copy of it, that it reads
 };
 [[nodiscard]] spread find_spread(const dataflow::graph& g, const delay_model& model);
 

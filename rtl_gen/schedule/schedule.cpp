@@ -338,9 +338,9 @@ node_id problem::add_chains(double period, double calm, const std::vector<std::u
                             std::vector<constraint>& constraints) const {
   const double around = model_.parameters().launch + model_.parameters().capture - tolerance;
   const double full_budget = period - around;
-  // Whoever is on the way between two of one component is of that component: what a chain's part may not do, the whole
-  // chain may not do either.
-  // Nothing shortens a recurrence's wires, so these do not count there.
+  // What many readers cost counts where a register can help, which is outside recurrences. Whoever is on the way
+  // between two of one component is of that component, so what a chain's part may not do, the whole chain may not do
+  // either.
   std::vector<double> arrival(count_, -1);
   std::vector<double> spread_arrival(count_, -1);  // with what many readers cost
   const auto too_long = [&](node_id start, variable end) {
@@ -412,10 +412,9 @@ node_id problem::add_chains(double period, double calm, const std::vector<std::u
 
 void problem::add_distribution(const std::vector<std::uint32_t>& component,
                                std::vector<constraint>& constraints) const {
-  const std::vector<double> readers = count_readers(g_, model_);
   const double many = model_.parameters().very_many_readers;
   for (node_id id = 0; id < g_.nodes.size(); ++id) {
-    if (settled_[id] || many == 0 || readers[id] < many || is_wire(g_, id) || latency_[id] > 0) continue;
+    if (settled_[id] || spread_.readers[id] < many || is_wire(g_, id) || latency_[id] > 0) continue;
     for (const way& w : ways_[id]) {
       if (w.to != 0 && component[w.to] != component[of_node(id)]) {
         constraints.push_back({of_node(id), w.to, 2, reason::order});
@@ -640,8 +639,7 @@ timing analyse(const graph& g, const delay_model& model, const result& s) {
       const bool chained =
           s.stage[id] != settled && s.available[operand] == s.stage[id] && s.stage[operand] == s.stage[id];
       const bool wired = s.stage[id] == settled && s.stage[operand] == settled && !is_settled_register(g, s, operand);
-      const double from = chained || wired ? t.arrival[operand] : p.launch;
-      const double at = from + model.entry(g, id, i);
+      const double at = (chained || wired ? t.arrival[operand] : p.launch) + model.entry(g, id, i);
       if (at > in || (at >= in && t.previous[id] == none && chained)) {
         in = at;
         t.previous[id] = chained ? operand : none;
