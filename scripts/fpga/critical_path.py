@@ -51,13 +51,14 @@ class source_lines:
         """(name, line) by the name that a cell's or net's name begins with."""
         stem = end_of_name.split(cell, maxsplit=1)[0]
         for part in stem.split("."):  # instances before it, an array's indices behind it
+            part = re.sub(r"(_copy\d+)_register$", r"\1", part)  # the instance that makes a copy
             if part in self.of_name:
                 return part, self.where(part)
         return (stem or cell), None
 
     def where(self, name):
-        """The line of a name; a copy of it in a later stage, `name_s7`, is declared without."""
-        return self.of_name.get(name) or self.of_name.get(re.sub(r"_s\d+$", "", name))
+        """The line of a name; what waits for a later stage, `name_s7`, is declared without, as are copies of that."""
+        return self.of_name.get(name) or self.of_name.get(re.sub(r"_s\d+(_copy\d+)?$", "", name))
 
 
 class cell_attributes:

@@ -12,6 +12,7 @@ from unittest import mock
 from fpga_bench import fpga_bench, root
 
 sys.path.insert(0, str(root / "scripts" / "fpga"))
+import critical_path  # noqa: E402
 import devices  # noqa: E402
 import figures  # noqa: E402
 import steps  # noqa: E402
@@ -56,6 +57,17 @@ class a_run(fpga_bench):
         )
         self.assertEqual([hop["logic_ns"] + hop["routing_ns"] for hop in path["hops"]], [0.5, 2.0, 1.5])
         self.assertIn("counter.cpp:5", ended.stdout)
+
+    def test_traces_copies_of_registers_to_the_line_of_what_they_copy(self):
+        verilog = self.folder / "top.v"
+        verilog.write_text(
+            "  wire [8:0] sum = a + b;  // counter.cpp:5\n  reg [8:0] sum_s4;\n  wire [8:0] sum_s4_copy12;\n"
+            "  epiline_copy #(.WIDTH(9)) sum_s4_copy12_register (.clk(clk), .clear(1'b0), .d(sum), .q(sum_s4_copy12));\n",
+            encoding="utf-8",
+        )
+        lines = critical_path.source_lines([verilog])
+        for cell in ("sum_s4_TRELLIS_FF_Q_1", "sum_s4_copy12_register.bits_TRELLIS_FF_Q_1", "sum_s4_copy12[3]"):
+            self.assertEqual(lines.of_cell(cell)[1], "counter.cpp:5", cell)
 
     def test_a_clock_that_is_not_reached_is_a_failure_with_the_path(self):
         ended = self.run_flow("--clock", "6", "--seeds", "2", "-o", "out")
