@@ -12,13 +12,14 @@ estimate for the target (epiline-hls, its report.json), before place and route, 
 
 import argparse
 import json
-import os
 import pathlib
 import random
 import re
 import subprocess
 import sys
 import tempfile
+
+from whole_file import write_whole
 
 root = pathlib.Path(__file__).resolve().parent.parent
 # The sizes of the paper's table of frame rates, and of Tsukuba and Venus, whose milliseconds it prints.
@@ -73,16 +74,6 @@ def frames_of(epiline, design, largest_width, folder):
         cycles = json.loads(figures.read_text(encoding="utf-8"))["cycles"]
         print(f"{design} {width}x{height}: {cycles} clocks, {cycles / width / height:.4f} a pixel", flush=True)
         yield {"width": width, "height": height, "levels": levels, "cycles": cycles}
-
-
-def write_whole(path, text):
-    """Under its name only when complete."""
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        temporary.write_text(text, encoding="utf-8")
-        temporary.replace(path)
-    finally:
-        temporary.unlink(missing_ok=True)
 
 
 def main(arguments):

@@ -10,9 +10,10 @@ that flip-flop has the RAM's clock and neither enable nor reset. Changes the fil
 
 import collections
 import json
-import os
 import pathlib
 import sys
+
+from whole_file import write_whole
 
 
 def is_plain_flip_flop(cell, clock):
@@ -82,9 +83,7 @@ def main():
         moved = sum(move_registers(module) for module in netlist["modules"].values())
     except (OSError, ValueError, KeyError, AttributeError) as error:
         sys.exit(f"ram_output_registers.py: error: {file} is not a netlist that Yosys wrote ({error!r})")
-    new = file.with_name(file.name + ".new")
-    new.write_text(json.dumps(netlist, indent=1), encoding="utf-8")
-    os.replace(new, file)
+    write_whole(file, json.dumps(netlist, indent=1))
     print(f"{moved} flip-flops moved into block RAMs")
 
 

@@ -11,9 +11,10 @@ published.json: rows of the literature with their sources.
 
 import argparse
 import json
-import os
 import pathlib
 import sys
+
+from whole_file import write_whole
 
 root = pathlib.Path(__file__).resolve().parent.parent
 run_schema = "epiline-fpga/1"
@@ -255,12 +256,7 @@ def main(arguments):
             if not options.output.is_file() or options.output.read_text(encoding="utf-8") != text:
                 raise table_error(f"{options.output} is not what {options.results} gives: run scripts/results_table.py")
             return 0
-        temporary = options.output.with_name(f".{options.output.name}.{os.getpid()}")
-        try:
-            temporary.write_text(text, encoding="utf-8")
-            temporary.replace(options.output)
-        finally:
-            temporary.unlink(missing_ok=True)
+        write_whole(options.output, text)
     except KeyError as error:
         print(f"results_table.py: error: a result has no key {error}", file=sys.stderr)
         return 1

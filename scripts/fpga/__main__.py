@@ -18,7 +18,8 @@ import figures
 import place_and_route
 import tools
 from flow_error import flow_error
-from steps import check_space, digest, explain_failure, program, progress, run_programs, step_store, write_whole
+from steps import check_space, digest, explain_failure, program, progress, run_programs, step_store
+from whole_file import write_whole  # in scripts/, which figures.py makes known
 
 root = pathlib.Path(__file__).resolve().parents[2]
 schema = "epiline-fpga/1"

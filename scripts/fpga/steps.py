@@ -212,16 +212,6 @@ class step_store:
         self.lock.close()
 
 
-def write_whole(path, text):
-    """Under its name only when complete."""
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        temporary.write_text(text, encoding="utf-8")
-        temporary.replace(path)
-    finally:
-        temporary.unlink(missing_ok=True)
-
-
 def check_space(folder, needed):
     """An error if the disk has less than `needed` bytes left."""
     free = shutil.disk_usage(folder).free

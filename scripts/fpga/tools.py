@@ -164,22 +164,23 @@ def prepare(say):
         ) from error
 
 
-def debian_version(program, package, arguments=("--version",)):
-    """The version that a program of a Debian package prints."""
+def need(program, package):
     if shutil.which(program) is None:
         raise flow_error(
             f"'{program}' is not installed (Debian package {package}; scripts/setup.sh installs what is needed)"
         )
-    ended = subprocess.run([program, *arguments], capture_output=True, text=True, check=False)
+
+
+def debian_version(program, package):
+    """The version that a program of a Debian package prints."""
+    need(program, package)
+    ended = subprocess.run([program, "--version"], capture_output=True, text=True, check=False)
     return last_line(ended.stderr + ended.stdout)
 
 
 def debian_package_version(program, package):
     """The version of the Debian package that a program without a version option comes from."""
-    if shutil.which(program) is None:
-        raise flow_error(
-            f"'{program}' is not installed (Debian package {package}; scripts/setup.sh installs what is needed)"
-        )
+    need(program, package)
     return run_or_fail(
         ["dpkg-query", "--show", "--showformat=${Version}", package], f"cannot ask for the version of {package}"
     )
