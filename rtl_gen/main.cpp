@@ -12,11 +12,13 @@
 #include <string>
 #include <vector>
 
+#include "crash_report.hpp"
 #include "dataflow/text.hpp"
 #include "emit/register_map.hpp"
 #include "emit/report.hpp"
 #include "emit/verilog.hpp"
 #include "frontend/frontend.hpp"
+#include "frontend/reproducer.hpp"
 #include "passes/pipeline.hpp"
 #include "schedule/schedule.hpp"
 
@@ -34,6 +36,7 @@ struct command_line {
   std::uint64_t seed = 1;
   std::string output;
   std::string depfile;
+  std::string crash;
   bool axi_lite = false;
   bool quiet = false;
 };
@@ -73,7 +76,7 @@ class output_folder {
  public:
   explicit output_folder(const std::string& path) : path_(path) {
     std::error_code failed;
-    fs::create_directories(path_, failed);
+    made_ = fs::create_directories(path_, failed);
     if (failed || !fs::is_directory(path_))
       throw usage_error(fmt::format("{}: cannot be made: {}: choose another folder with -o", path,
                                     failed ? failed.message() : "it is not a folder"));
@@ -81,6 +84,7 @@ class output_folder {
   ~output_folder() {
     std::error_code ignored;
     for (const fs::path& file : files_) fs::remove(temporary(file), ignored);
+    if (made_) fs::remove(path_, ignored);  // which fails when something is in it
   }
   output_folder(const output_folder&) = delete;
   output_folder& operator=(const output_folder&) = delete;
@@ -105,6 +109,7 @@ class output_folder {
  private:
   static fs::path temporary(const fs::path& file) { return file.string() + ".part"; }
   fs::path path_;
+  bool made_ = false;
   std::vector<fs::path> files_;
 };
 
@@ -161,6 +166,7 @@ void run(const command_line& given) {
 
   llvm::LLVMContext context;
   frontend::compiled_source source = frontend::compile(given.source, context);
+  crash_on_purpose(given.crash);
   for (const std::string& note : source.notes) std::cerr << note << '\n';
   frontend::lowered_process process = frontend::lower(source, given.source);
   dataflow::graph graph = frontend::build_graph(process, given.source.top.substr(given.source.top.rfind(':') + 1));
@@ -207,7 +213,11 @@ void run(const command_line& given) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  watch_for_crashes(argc, argv);
   command_line given;
+  given.source.on_preprocessed = [](const std::string& text) {
+    keep_for_crash_report(frontend::standalone_source(text));
+  };
   CLI::App app("Compiles a C++ function over hls::stream into Verilog.");
   app.name("epiline-hls");
   app.set_version_flag("--version", "epiline-hls " EPILINE_VERSION);
@@ -231,6 +241,7 @@ int main(int argc, char** argv) {
       "--axi-lite", given.axi_lite,
       "put the scalar arguments into registers behind an AXI4-Lite slave, with NAME_registers.h, .json and .md");
   app.add_option("--depfile", given.depfile, "write the files read, as a Makefile rule, for build systems");
+  app.add_option("--crash", given.crash)->group("");  // hidden: for the tests of the crash report
   app.add_flag("-q,--quiet", given.quiet, "print nothing but problems");
   CLI11_PARSE(app, argc, argv);
   try {
@@ -243,14 +254,16 @@ int main(int argc, char** argv) {
   } catch (const frontend::refused& refusal) {
     std::cerr << refusal.what() << '\n';
   } catch (const schedule::infeasible& refusal) {
-    std::cerr << refusal.what() << '\n';
+    const std::string text = refusal.what();  // "FILE:LINE: TEXT"
+    const std::size_t place = text.find(": ");
+    std::cerr << text.substr(0, place) << ": error" << text.substr(place) << '\n';
   } catch (const std::invalid_argument& refusal) {
-    std::cerr << "error: " << refusal.what() << '\n';
+    const std::string text = refusal.what();  // "FILE:LINE: error: TEXT", or a text about an option
+    std::cerr << (text.find(": error: ") == std::string::npos ? "error: " : "") << text << '\n';
   } catch (const usage_error& refusal) {
     std::cerr << "error: " << refusal.what() << '\n';
   } catch (const std::exception& failure) {
-    std::cerr << "error: internal: " << failure.what() << ": please report this with the source file\n";
-    return 70;
+    report_crash(failure.what());
   }
   return 1;
 }

@@ -281,7 +281,7 @@ std::string writer::fresh_port(const std::string& wanted) {
 void writer::reserve_interface() {
   std::vector<std::string> stems;
   const auto reserve = [&](const std::string& name, std::string_view what, dataflow::source_location where) {
-    const std::string place = where.line == 0 ? "" : schedule::describe(g_, where) + ": ";
+    const std::string place = where.line == 0 ? "" : schedule::describe(g_, where) + ": error: ";
     if (!is_identifier(name) || is_keyword(name)) {
       throw std::invalid_argument(
           fmt::format("{}{} '{}' cannot have that name in Verilog: rename it", place, what, name));

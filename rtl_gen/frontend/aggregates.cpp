@@ -1,5 +1,6 @@
 #include "frontend/aggregates.hpp"
 
+#include <llvm/Analysis/LoopInfo.h>
 #include <llvm/BinaryFormat/Dwarf.h>
 #include <llvm/IR/DebugInfo.h>
 #include <llvm/IR/DebugInfoMetadata.h>
@@ -9,15 +10,19 @@
 #include <llvm/IR/ReplaceConstant.h>
 #include <llvm/Transforms/Utils/PromoteMemToReg.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
+#include "frontend/checks.hpp"
 #include "frontend/payload.hpp"
 #include "frontend/vocabulary.hpp"
 
 namespace epiline::frontend {
 
 namespace {
+
+constexpr std::uint64_t largest_multiplexer = 4096;  // registers that one index chooses from
 
 /// One index on the way from a variable to a scalar: constant + dynamic, in a struct or an array.
 struct path_step {
@@ -152,8 +157,8 @@ class access_collector {
                                                    "between the values instead, or use an index",
                                                    variable_.name));
       } else {
-        refuse(place_of(*instruction), fmt::format("arithmetic on the address of '{}' ({}): use array indices",
-                                                   variable_.name, instruction->getOpcodeName()));
+        refuse(place_of(*instruction),
+               fmt::format("the address of '{}' is compared or computed with: use array indices", variable_.name));
       }
     }
   }
@@ -375,7 +380,11 @@ std::string shape_of(const path_steps& path, std::size_t count) {
 class splitter {
  public:
   explicit splitter(lowered_process& result)
-      : result_(result), function_(*result.function), layout_(function_.getParent()->getDataLayout()) {}
+      : result_(result),
+        function_(*result.function),
+        layout_(function_.getParent()->getDataLayout()),
+        dominators_(function_),
+        loops_(dominators_) {}
 
   void split(variable& of) {
     access_collector collected(of, layout_);
@@ -401,17 +410,32 @@ class splitter {
   enum class role : std::uint8_t { constant, multiplexed, address };
 
   void apply_pragma(const path_steps& path, llvm::CallInst& call) {
-    const auto value = llvm::cast<llvm::ConstantInt>(call.getArgOperand(1))->getSExtValue();
+    const bool is_dependence = call.getCalledFunction()->getName() == "__epiline_pragma_dependence";
     // A pointer to an array may have decayed to one to its first element; the pragma speaks of the whole.
     std::size_t length = path.size();
     while (length > 0 && path[length - 1].is_array() && path[length - 1].constant == 0 &&
            path[length - 1].dynamic == nullptr)
       --length;
     const std::string shape = shape_of(path, length);
-    if (call.getCalledFunction()->getName() == "__epiline_pragma_dependence")
+    const int value = pragma_number(call, 1, is_dependence ? 1 : 0);
+    if (is_dependence)
       distances_.emplace_back(shape, static_cast<unsigned>(value));
     else
-      partitioned_.emplace_back(shape, static_cast<unsigned>(value));
+      partition(path, length, shape, static_cast<unsigned>(value), call);
+  }
+
+  void partition(const path_steps& path, std::size_t length, const std::string& shape, unsigned dimension,
+                 const llvm::CallInst& call) {
+    unsigned dimensions = 0;
+    llvm::Type* type = length == 0 ? variable_->type : step_type(path[length - 1]);
+    for (; llvm::isa<llvm::ArrayType>(type); ++dimensions) type = type->getArrayElementType();
+    const bool is_object = llvm::isa<llvm::StructType>(type);  // whose arrays are meant too
+    if (dimensions == 0 && !is_object)
+      refuse(place_of(call), fmt::format("#pragma HLS ARRAY_PARTITION: '{}' is not an array", variable_->name));
+    if (dimension > dimensions && !is_object)
+      refuse(place_of(call), fmt::format("#pragma HLS ARRAY_PARTITION dim={}: '{}' has {} dimension{}", dimension,
+                                         variable_->name, dimensions, dimensions == 1 ? "" : "s"));
+    partitioned_.emplace_back(shape, dimension);
   }
 
   [[nodiscard]] bool is_partitioned(const path_steps& path, std::size_t position) const {
@@ -450,12 +474,18 @@ class splitter {
       const bool multiplexed = !variable_->is_constant && (is_partitioned(path, i) || words <= largest_register_array ||
                                                            (any_large && path[i].size() <= largest_register_array));
       roles[i] = multiplexed ? role::multiplexed : role::address;
+      if (multiplexed && path[i].size() > largest_multiplexer)
+        refuse(variable_->place,
+               fmt::format("'{}' has {} elements, reached by an index known at run time: too many for "
+                           "registers: leave out ARRAY_PARTITION, and it becomes a memory",
+                           variable_->name, path[i].size()));
     }
     return roles;
   }
 
   void rewrite(scalar_access& access) {
     const std::vector<role> roles = roles_of(access.path);
+    check_range(access);
     auto* store = llvm::dyn_cast<llvm::StoreInst>(access.instruction);
     llvm::IRBuilder<> builder(access.instruction);
     if (store != nullptr) {
@@ -468,6 +498,19 @@ class splitter {
       access.instruction->replaceAllUsesWith(value);
     }
     access.instruction->eraseFromParent();
+  }
+
+  /// Unrolling leaves indices past the end behind conditions that never hold. Refuses those without a condition.
+  void check_range(const scalar_access& access) const {
+    const auto wrong = std::find_if(access.path.begin(), access.path.end(), out_of_range);
+    if (wrong == access.path.end()) return;
+    const llvm::BasicBlock* block = access.instruction->getParent();
+    const llvm::Loop* loop = loops_.getLoopFor(block);
+    if (loop == nullptr || loop->getLoopLatch() == nullptr || !dominators_.dominates(block, loop->getLoopLatch()))
+      return;
+    refuse(place_of(*access.instruction),
+           fmt::format("index {} of '{}', which has {} elements there: indices run from 0 to {}", wrong->constant,
+                       variable_->name, wrong->size(), wrong->size() - 1));
   }
 
   static bool out_of_range(const path_step& step) {
@@ -661,6 +704,8 @@ class splitter {
   lowered_process& result_;
   llvm::Function& function_;
   const llvm::DataLayout& layout_;
+  llvm::DominatorTree dominators_;
+  llvm::LoopInfo loops_;
   variable* variable_ = nullptr;
   std::set<std::string> dynamic_;
   std::vector<std::pair<std::string, unsigned>> partitioned_;

@@ -12,7 +12,9 @@
 #include <fstream>
 #include <optional>
 #include <set>
+#include <stdexcept>
 
+#include "frontend/messages.hpp"
 #include "frontend/pragmas.hpp"
 #include "frontend/source.hpp"
 
@@ -65,7 +67,9 @@ bool run_clang(const std::vector<std::string>& arguments, const std::string& mes
   words.insert(words.end(), arguments.begin(), arguments.end());
   const std::optional<llvm::StringRef> redirects[] = {llvm::StringRef(), llvm::StringRef(messages),
                                                       llvm::StringRef(messages)};
-  return llvm::sys::ExecuteAndWait(*program, words, std::nullopt, redirects) == 0;
+  const int code = llvm::sys::ExecuteAndWait(*program, words, std::nullopt, redirects);
+  if (code < 0) throw std::runtime_error("clang ended by a signal");
+  return code == 0;
 }
 
 /// The files named by line markers, in order of appearance, without clang's pseudo files.
@@ -91,8 +95,23 @@ std::string wrapper_source(const source_options& options) {
       fs::absolute(options.source).lexically_normal().string(), wrapper_file, process_name, options.top, options.top);
 }
 
-/// The first line of the source that names the top followed by a parenthesis; 1 when there is none.
-unsigned line_of(const source_options& options) {
+[[noreturn]] void refuse_compilation(const source_options& options, const std::string& messages,
+                                     const std::string& program, const pragma_places& pragmas = {}) {
+  if (messages.find(std::string(wrapper_file) + ":1:") == std::string::npos &&
+      messages.find("the top returns a value") == std::string::npos)
+    throw refused(explain_messages(messages, pragmas));
+  // The call of the top does not compile: what is the top then?
+  const std::string listing = program + ".txt";
+  const std::string base = options.top.substr(options.top.rfind(':') + 1);
+  (void)run_clang({"-std=c++17", "-D__SYNTHESIS__", "-w", "-fsyntax-only", "-Xclang", "-ast-dump", "-Xclang",
+                   "-ast-dump-filter=" + base, program},
+                  listing);
+  throw refused(explain_top(options.top, shown_path(options.source), read_file(listing)));
+}
+
+}  // namespace
+
+unsigned line_of_top(const source_options& options) {
   const std::string base = options.top.substr(options.top.rfind(':') + 1);
   std::ifstream in(options.source);
   std::string text;
@@ -103,26 +122,6 @@ unsigned line_of(const source_options& options) {
   }
   return 1;
 }
-
-[[noreturn]] void refuse_compilation(const source_options& options, const std::string& messages) {
-  if (messages.find(std::string(wrapper_file) + ":1:") == std::string::npos &&
-      messages.find("the top returns a value") == std::string::npos)
-    throw refused(messages + fmt::format("error: {} does not compile (clang's messages above)", options.source));
-  if (messages.find("no member named") != std::string::npos || messages.find("undeclared") != std::string::npos)
-    throw refused(
-        fmt::format("{}: error: there is no function '{}' in this file: name the function to synthesize with --top",
-                    options.source, options.top));
-  if (messages.find("the top returns a value") != std::string::npos)
-    throw refused(
-        fmt::format("{}:{}: error: top '{}' returns a value: a top returns void; give results through an "
-                    "hls::stream or a scalar by reference",
-                    options.source, line_of(options), options.top));
-  throw refused(messages + fmt::format("{}: error: '{}' cannot be a top: a top is one function (not overloaded, not a "
-                                       "template) that returns void and takes hls::stream references and scalars",
-                                       options.source, options.top));
-}
-
-}  // namespace
 
 compiled_source compile(const source_options& options, llvm::LLVMContext& context) {
   if (!fs::is_regular_file(options.source)) throw refused(fmt::format("error: {}: no such file", options.source));
@@ -136,6 +135,7 @@ compiled_source compile(const source_options& options, llvm::LLVMContext& contex
   std::vector<std::string> common = {"-std=c++17",
                                      "-D__SYNTHESIS__",
                                      "-fno-exceptions",
+                                     "-fno-rtti",
                                      "-Wno-unknown-pragmas",
                                      "-Wno-undefined-var-template",
                                      "-Wno-invalid-constexpr",
@@ -147,8 +147,9 @@ compiled_source compile(const source_options& options, llvm::LLVMContext& contex
   for (const std::string& path : options.includes) preprocess.insert(preprocess.end(), {"-I", path});
   preprocess.insert(preprocess.end(), {"-I", EPILINE_TYPES_DIRECTORY "/.."});
   for (const std::string& definition : options.definitions) preprocess.push_back("-D" + definition);
-  if (!run_clang(preprocess, messages)) refuse_compilation(options, read_file(messages));
+  if (!run_clang(preprocess, messages)) refuse_compilation(options, read_file(messages), preprocessed);
 
+  if (options.on_preprocessed) options.on_preprocessed(read_file(preprocessed));
   compiled_source result;
   pragma_rewrite rewritten = rewrite_pragmas(read_file(preprocessed));
   result.notes = std::move(rewritten.notes);
@@ -158,9 +159,13 @@ compiled_source compile(const source_options& options, llvm::LLVMContext& contex
 
   std::vector<std::string> translate = common;
   // -O1 without passes: optimisable IR, untouched; our own pipeline decides what happens to it.
-  translate.insert(translate.end(), {"-O1", "-Xclang", "-disable-llvm-passes", "-g", "-fno-discard-value-names", "-w",
-                                     "-fno-vectorize", "-emit-llvm", "-c", preprocessed, "-o", bitcode});
-  if (!run_clang(translate, messages)) refuse_compilation(options, read_file(messages));
+  translate.insert(translate.end(),
+                   {"-O1", "-Xclang", "-disable-llvm-passes", "-g", "-fno-discard-value-names", "-Wno-everything",
+                    "-fno-vectorize", "-emit-llvm", "-c", preprocessed, "-o", bitcode});
+  for (const char* mistake : {"uninitialized", "division-by-zero", "shift-count-overflow", "shift-count-negative",
+                              "array-bounds"})  // what has no meaning, so that any hardware would be wrong
+    translate.push_back(std::string("-Werror=") + mistake);
+  if (!run_clang(translate, messages)) refuse_compilation(options, read_file(messages), preprocessed, rewritten.places);
 
   llvm::SMDiagnostic diagnostic;
   result.module = llvm::parseIRFile(bitcode, diagnostic, context);

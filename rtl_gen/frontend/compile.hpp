@@ -4,6 +4,7 @@
 #include <llvm/IR/LLVMContext.h>
 #include <llvm/IR/Module.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,10 +15,11 @@ namespace epiline::frontend {
 inline constexpr const char* process_name = "__epiline_process";
 
 struct source_options {
-  std::string source;                    // the C++ file that defines the top
-  std::string top;                       // its name
-  std::vector<std::string> includes;     // -I
-  std::vector<std::string> definitions;  // -D
+  std::string source;                                       // the C++ file that defines the top
+  std::string top;                                          // its name
+  std::vector<std::string> includes;                        // -I
+  std::vector<std::string> definitions;                     // -D
+  std::function<void(const std::string&)> on_preprocessed;  // gets the source with everything it includes; may be empty
 };
 
 struct compiled_source {
@@ -25,6 +27,9 @@ struct compiled_source {
   std::vector<std::string> notes;         // about pragmas, one line each
   std::vector<std::string> dependencies;  // every file read
 };
+
+/// The first line of the source that names the top followed by a parenthesis; 1 when there is none.
+[[nodiscard]] unsigned line_of_top(const source_options& options);
 
 /// Throws `refused` with clang's own message when the source does not compile, and when there is no such file or top.
 [[nodiscard]] compiled_source compile(const source_options& options, llvm::LLVMContext& context);

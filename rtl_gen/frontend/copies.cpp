@@ -101,6 +101,7 @@ llvm::Value* element_address(llvm::IRBuilderBase& builder, llvm::Value* base, ll
 /// Returns whether the copy is replaced.
 bool expand(llvm::MemIntrinsic& copy, const llvm::DataLayout& layout, unknown_types otherwise) {
   auto* length = llvm::dyn_cast<llvm::ConstantInt>(copy.getLength());
+  if (length == nullptr && otherwise == unknown_types::kept) return false;  // another refusal may tell more
   if (length == nullptr) refuse(place_of(copy), "copy of a run-time number of bytes: write a loop over the elements");
   const std::uint64_t bytes = length->getZExtValue();
   auto* transfer = llvm::dyn_cast<llvm::MemTransferInst>(&copy);

@@ -1,5 +1,6 @@
 #include "frontend/loops.hpp"
 
+#include <fmt/format.h>
 #include <llvm/Analysis/AssumptionCache.h>
 #include <llvm/Analysis/LoopInfo.h>
 #include <llvm/Analysis/OptimizationRemarkEmitter.h>
@@ -18,6 +19,7 @@
 
 #include <set>
 
+#include "frontend/checks.hpp"
 #include "frontend/source.hpp"
 #include "frontend/vocabulary.hpp"
 
@@ -29,6 +31,7 @@ using llvm::Instruction;
 
 constexpr unsigned longest_outer_unroll = 64;    // trips of a constant loop outside of all others
 constexpr unsigned longest_inner_unroll = 1024;  // trips of a constant loop inside a pipelined one
+constexpr unsigned longest_marked_unroll = 16384;
 
 bool is_port_access(const llvm::Instruction& instruction) {
   const access kind = access_of(instruction);
@@ -60,11 +63,9 @@ loop_marks take_pragmas(llvm::Function& function, const llvm::LoopInfo& loops) {
       (pipeline ? marks.pipelined : marks.unrolled).insert(loop->getHeader());
     else if (pipeline)
       marks.whole_function = true;
-    if (pipeline) {
-      if (auto* interval = llvm::dyn_cast<llvm::ConstantInt>(call->getArgOperand(0)))
-        marks.initiation_interval =
-            std::max(marks.initiation_interval, static_cast<unsigned>(interval->getZExtValue()));
-    }
+    if (pipeline)
+      marks.initiation_interval =
+          std::max(marks.initiation_interval, static_cast<unsigned>(pragma_number(*call, 0, 1)));
     call->eraseFromParent();
   }
   return marks;
@@ -101,11 +102,16 @@ class unroller {
     for (const llvm::BasicBlock* block : loop.blocks())
       for (const llvm::Instruction& instruction : *block) accesses = accesses || is_port_access(instruction);
     if (marked && most == 0)
-      refuse(place_of(*header->getFirstNonPHI()),
+      refuse(place_of(loop),
              "#pragma HLS UNROLL on a loop whose number of trips is not known: bound it by a constant and leave early "
              "with a condition");
+    if (marked && most > longest_marked_unroll)
+      refuse(place_of(loop),
+             fmt::format("#pragma HLS UNROLL on a loop of up to {} trips: {} are the most: bound it by a smaller "
+                         "constant, or let it stay a loop",
+                         most, longest_marked_unroll));
     if (!accesses && loop.hasNoExitBlocks())
-      refuse(place_of(*header->getFirstNonPHI()),
+      refuse(place_of(loop),
              "endless loop without stream access: it can never give a result; bound it or access a stream in it");
     bool unroll = marked;
     if (!marked && marks_.pipelined.count(header) == 0 && !accesses && most != 0)
@@ -116,7 +122,7 @@ class unroller {
   }
 
   void unroll(llvm::Loop& loop) {
-    const source_place place = place_of(*loop.getHeader()->getFirstNonPHI());
+    const source_place place = place_of(loop);
     llvm::simplifyLoop(&loop, &dominators_, &loops_, &evolution_, &assumptions_, nullptr, false);
     llvm::formLCSSARecursively(loop, dominators_, &loops_, &evolution_);
     unsigned count = evolution_.getSmallConstantTripCount(&loop);

@@ -1,9 +1,7 @@
 #include "frontend/lower.hpp"
 
 #include <fmt/format.h>
-#include <llvm/ADT/SCCIterator.h>
-#include <llvm/Analysis/CallGraph.h>
-#include <llvm/Demangle/Demangle.h>
+#include <llvm/Analysis/LoopInfo.h>
 #include <llvm/IR/DebugInfoMetadata.h>
 #include <llvm/IR/InstIterator.h>
 #include <llvm/IR/IntrinsicInst.h>
@@ -25,6 +23,7 @@
 #include <set>
 
 #include "frontend/aggregates.hpp"
+#include "frontend/checks.hpp"
 #include "frontend/copies.hpp"
 #include "frontend/loops.hpp"
 #include "frontend/payload.hpp"
@@ -52,6 +51,9 @@ struct analysis_managers {
   }
 };
 
+/// Stands for what nobody has written; the parameter's index follows.
+constexpr const char* unwritten_prefix = "epiline.unwritten.";
+
 struct top_description {
   source_place place;
   std::map<unsigned, std::string> parameters;  // by index from 0
@@ -75,44 +77,6 @@ top_description describe_top(const llvm::Module& module, const std::string& top)
   return result;
 }
 
-void check_recursion(llvm::Module& module) {
-  llvm::CallGraph calls(module);
-  for (auto component = llvm::scc_begin(&calls); !component.isAtEnd(); ++component) {
-    if (!component.hasCycle()) continue;
-    for (const llvm::CallGraphNode* node : *component)
-      if (const llvm::Function* function = node->getFunction(); function != nullptr && !function->isDeclaration())
-        refuse(place_of(*function),
-               fmt::format(
-                   "recursion in '{}': hardware has no call stack: write a loop, or recursion over template parameters",
-                   readable_name(*function)));
-  }
-}
-
-/// Calls that are left when everything defined here is inlined.
-void check_calls(llvm::Function& process) {
-  for (llvm::Instruction& instruction : llvm::instructions(process)) {
-    if (llvm::isa<llvm::InvokeInst>(instruction)) refuse(place_of(instruction), "exceptions are not supported");
-    auto* call = llvm::dyn_cast<llvm::CallInst>(&instruction);
-    if (call == nullptr || llvm::isa<llvm::IntrinsicInst>(call)) continue;
-    if (call->isInlineAsm()) refuse(place_of(*call), "inline assembly is not supported");
-    const llvm::Function* callee = call->getCalledFunction();
-    if (callee == nullptr)
-      refuse(place_of(*call),
-             "a call through a pointer (function pointer or virtual function) that is not known at compile time: call "
-             "the function directly, or use a template parameter");
-    const llvm::StringRef name = callee->getName();
-    if (name.starts_with("__epiline_")) continue;
-    if (name == "malloc" || name == "free" || name == "calloc" || name == "realloc" || name.starts_with("_Znw") ||
-        name.starts_with("_Zna") || name.starts_with("_Zdl") || name.starts_with("_Zda"))
-      refuse(place_of(*call),
-             fmt::format("heap memory ('{}'): hardware has none: use arrays of constant size", readable_name(*callee)));
-    if (call->doesNotReturn()) continue;  // abort, a failed assertion: such a path is never taken
-    refuse(place_of(*call), fmt::format("call of '{}', which has no definition in this source: define it, or keep it "
-                                        "out of the synthesis build with #ifndef __SYNTHESIS__",
-                                        readable_name(*callee)));
-  }
-}
-
 /// Inlines every call in the roots, and in nothing else that matters.
 void inline_everything(llvm::Module& module, const std::vector<llvm::Function*>& roots, analysis_managers& managers) {
   for (llvm::Function& function : module) {
@@ -127,19 +91,6 @@ void inline_everything(llvm::Module& module, const std::vector<llvm::Function*>&
   llvm::ModulePassManager passes;
   passes.addPass(llvm::AlwaysInlinerPass(false));
   passes.run(module, managers.module);
-}
-
-/// Refuses variables whose value only running code could tell, where the process uses them.
-void check_initial_values(const std::set<const llvm::GlobalVariable*>& unknown, const llvm::Function& process) {
-  for (const llvm::Instruction& instruction : llvm::instructions(process))
-    for (const llvm::Use& operand : instruction.operands()) {
-      const auto* variable = llvm::dyn_cast<llvm::GlobalVariable>(operand->stripInBoundsConstantOffsets());
-      if (variable == nullptr || unknown.count(variable) == 0) continue;
-      refuse(
-          place_of(instruction),
-          fmt::format("'{}' gets its value when a program starts, from code that cannot be run here: make it constexpr",
-                      llvm::demangle(variable->getName().str())));
-    }
 }
 
 /// Replaces the stream, argument and result calls by port accesses.
@@ -161,6 +112,11 @@ class port_lowering {
     for (const dataflow::port& port : result_.ports)
       if (port.width == 0)
         refuse(top_.place, fmt::format("the stream '{}' is never read or written: remove the parameter", port.name));
+    if (std::none_of(result_.ports.begin(), result_.ports.end(),
+                     [](const dataflow::port& port) { return !port.input; }))
+      refuse(top_.place,
+             "the top has no output: give results through an hls::stream or a scalar by reference, or nothing can be "
+             "seen of it");
   }
 
  private:
@@ -189,10 +145,19 @@ class port_lowering {
     return static_cast<unsigned>(result_.ports.size() - 1);
   }
 
+  /// The reasons of call_top.hpp.
+  [[noreturn]] void refuse_parameter(const llvm::CallInst& call) const {
+    static const char* const reasons[] = {
+        "is a pointer or array: pass data through hls::stream references",
+        "is an array by reference: pass data through hls::stream references, or a struct of few members",
+        "is a stream by value or by const reference: pass it as hls::stream<T>&",
+        "is an rvalue reference: pass a scalar by value"};
+    const auto reason = llvm::cast<llvm::ConstantInt>(call.getArgOperand(1))->getZExtValue();
+    refuse(top_.place, fmt::format("parameter '{}' {}", parameter_name(index_of(call)), reasons[reason]));
+  }
+
   void bind_ports(llvm::CallInst& call) {
-    if (name_of(call) == "__epiline_unsupported_parameter")
-      refuse(top_.place, fmt::format("parameter '{}' is a pointer or array: pass data through hls::stream references",
-                                     parameter_name(index_of(call))));
+    if (name_of(call) == "__epiline_unsupported_parameter") refuse_parameter(call);
     if (name_of(call) != "__epiline_port") return;
     const unsigned port = add_port(parameter_name(index_of(call)), dataflow::port_kind::stream, true);
     ports_of_objects_[call.getArgOperand(1)] = port;
@@ -205,7 +170,15 @@ class port_lowering {
 
   [[nodiscard]] std::vector<leaf> payload_leaves(llvm::Type* type, const source_place& place) const {
     refuse_members_like_padding(type, *result_.function->getParent(), place);
-    return leaves_of(type, layout(), place);
+    std::vector<leaf> leaves = leaves_of(type, layout(), place);
+    check_width(width_of(leaves), place);
+    return leaves;
+  }
+
+  static void check_width(unsigned width, const source_place& place) {
+    if (width > dataflow::max_width)
+      refuse(place, fmt::format("a token of {} bits: {} are the most: send it in parts, one after another", width,
+                                dataflow::max_width));
   }
 
   /// All scalars by value arrive as one token, taken where the first of them is.
@@ -223,11 +196,31 @@ class port_lowering {
       result_.ports[call_port_].fields.push_back(
           {name, name, width_of(leaves), result_.ports[call_port_].width, is_signed});
       result_.ports[call_port_].width += width_of(leaves);
+      check_width(result_.ports[call_port_].width, top_.place);
       finished_.push_back(&call);
+    } else if (name_of(call) == "__epiline_unwritten") {
+      leave_unwritten(call);
     } else if (name_of(call) == "__epiline_result") {
       const unsigned port = add_port(parameter_name(index_of(call)), dataflow::port_kind::result, false);
       write(call, port, call.getArgOperand(1), payload_type(call, 2));
     }
+  }
+
+  /// What a result holds before the top writes it becomes a value of unknown origin, which find_unwritten() looks for
+  /// at the end. An undefined value would be optimised into anything.
+  void leave_unwritten(llvm::CallInst& call) {
+    llvm::Type* const type = payload_type(call, 2);
+    const std::vector<leaf> leaves = payload_leaves(type, top_.place);
+    llvm::IRBuilder<> builder(&call);
+    llvm::Type* const token = builder.getIntNTy(width_of(leaves));
+    llvm::FunctionCallee nobody = result_.function->getParent()->getOrInsertFunction(
+        fmt::format("{}{}", unwritten_prefix, index_of(call)), llvm::FunctionType::get(token, false));
+    auto* function = llvm::cast<llvm::Function>(nobody.getCallee());
+    function->setDoesNotAccessMemory();
+    function->setDoesNotThrow();
+    function->setWillReturn();
+    unpack_token(builder, builder.CreateCall(nobody), call.getArgOperand(1), type, leaves);
+    finished_.push_back(&call);
   }
 
   void finish_call_token() {
@@ -311,6 +304,20 @@ class port_lowering {
   unsigned call_port_ = 0;
 };
 
+/// Refuses results that a call may give out without having written them.
+void find_unwritten(const llvm::Function& process, const top_description& top) {
+  for (const llvm::Instruction& instruction : llvm::instructions(process)) {
+    const auto* call = llvm::dyn_cast<llvm::CallInst>(&instruction);
+    if (call == nullptr || call->getCalledFunction() == nullptr || call->use_empty()) continue;
+    llvm::StringRef name = call->getCalledFunction()->getName();
+    unsigned index = 0;
+    if (!name.consume_front(unwritten_prefix) || name.getAsInteger(10, index)) continue;
+    refuse(top.place, fmt::format("the top may read '{}', or end, before it has written it: a scalar by reference is a "
+                                  "result only: write it on every way through the top, and pass what is read by value",
+                                  top.parameters.at(index)));
+  }
+}
+
 /// Paths into undefined behaviour, failed assertions among them, are never taken.
 void cut_after_noreturn(llvm::Function& process) {
   std::vector<llvm::CallInst*> ends;
@@ -380,7 +387,13 @@ lowered_process lower(compiled_source& source, const source_options& options) {
 
   const top_description top = describe_top(module, options.top);
   result.top_place = top.place;
-  check_recursion(module);
+  if (top.place.line == 0)
+    refuse(
+        {options.source, line_of_top(options)},
+        fmt::format("top '{}' is declared but not defined in this file: name the file that defines it", options.top));
+  if (top.parameters.empty())
+    refuse(top.place, "the top has no parameters: ports are made of them: give it hls::stream references");
+  check_functions(module, process);
   std::vector<llvm::Function*> roots = start_up_functions(module);
   const std::vector<llvm::Function*> start_up = roots;
   roots.push_back(&process);
@@ -396,7 +409,8 @@ lowered_process lower(compiled_source& source, const source_options& options) {
   expand_copies(process, unknown_types::kept);
   resolve_pointer_choices(process);
   run_passes(process, managers, early_cleanup());
-  check_calls(process);
+  check_operations(process);
+  check_endless_loops(managers.function.getResult<llvm::LoopAnalysis>(process));
   cut_after_noreturn(process);
   port_lowering(result, top).run();
   managers.function.invalidate(process, llvm::PreservedAnalyses::none());
@@ -424,6 +438,7 @@ lowered_process lower(compiled_source& source, const source_options& options) {
   look_ahead(process, managers.function);
   managers.function.invalidate(process, llvm::PreservedAnalyses::none());
   narrow_counters(process, managers.function);
+  find_unwritten(process, top);
   return result;
 }
 

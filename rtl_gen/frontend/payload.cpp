@@ -55,6 +55,8 @@ struct collector {
     } else if (auto* array = llvm::dyn_cast<llvm::ArrayType>(type)) {
       for (unsigned i = 0; i < array->getNumElements(); ++i) visit_member(array->getElementType(), i);
     } else if (auto* structure = llvm::dyn_cast<llvm::StructType>(type)) {
+      if (structure->hasName() && structure->getName().starts_with("union."))
+        refuse(place, "a union in a stream or parameter: which member is meant is not known: use a struct");
       const unsigned outside = axis_field;
       for (unsigned i = 0; i < structure->getNumElements(); ++i) {
         llvm::Type* const member = structure->getElementType(i);

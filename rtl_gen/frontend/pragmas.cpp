@@ -1,9 +1,12 @@
 #include "frontend/pragmas.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <llvm/ADT/StringExtras.h>
 #include <llvm/ADT/StringRef.h>
 
+#include <algorithm>
+#include <initializer_list>
 #include <map>
 
 #include "frontend/source.hpp"
@@ -55,17 +58,47 @@ bool has_kind(const pragma_line& pragma, const std::string& kind) {
   return pragma.has(kind) || llvm::StringRef(pragma.get("type")).lower() == kind;
 }
 
+/// What stands after `key=`, a number or a constant expression of the source; `otherwise` when it is not there.
+std::string number_of(const pragma_line& pragma, const std::string& key, int otherwise, int least,
+                      const source_place& place) {
+  if (!pragma.has(key)) return std::to_string(otherwise);
+  const std::string text = pragma.get(key);
+  int number = least;
+  const bool is_number = !llvm::StringRef(text).getAsInteger(10, number);
+  if (text.empty() || number < least || (!is_number && llvm::isDigit(text.front())))
+    refuse(place, fmt::format("#pragma HLS {} {}={}: give a number from {} on", llvm::StringRef(pragma.name).upper(),
+                              llvm::StringRef(key).upper(), text, least));
+  return text;
+}
+
+/// A word that the pragma does not have would be ignored in silence: a slip of the pen most of the time.
+void check_options(const pragma_line& pragma, std::initializer_list<const char*> known, const source_place& place) {
+  for (const auto& [key, value] : pragma.options)
+    if (std::find(known.begin(), known.end(), key) == known.end())
+      refuse(place, fmt::format("#pragma HLS {}: the option '{}' is not known: it takes {}",
+                                llvm::StringRef(pragma.name).upper(), key, fmt::join(known, ", ")));
+}
+
 std::string dependence_call(const pragma_line& pragma, const source_place& place) {
   const std::string variable = pragma.get("variable");
+  check_options(pragma,
+                {"variable", "type", "intra", "inter", "direction", "raw", "war", "waw", "distance", "dependent",
+                 "true", "false", "class", "array", "pointer"},
+                place);
   if (variable.empty()) refuse(place, "#pragma HLS DEPENDENCE without variable=NAME: name the array it speaks of");
   if (has_kind(pragma, "intra")) return "";  // order within an iteration is always kept here
   const bool none = has_kind(pragma, "false") || pragma.get("dependent") == "false";
-  const std::string distance = pragma.get("distance", none ? "1000000" : "1");
+  constexpr int no_distance = 1000000;  // iterations: never
+  const std::string distance = number_of(pragma, "distance", none ? no_distance : 1, 1, place);
   return fmt::format("__epiline_pragma_dependence((const void*)&({}), {});", variable, distance);
 }
 
 std::string partition_call(const pragma_line& pragma, const source_place& place, std::vector<std::string>& notes) {
   const std::string variable = pragma.get("variable");
+  check_options(pragma, {"variable", "type", "complete", "cyclic", "block", "factor", "dim"}, place);
+  if (const std::string type = llvm::StringRef(pragma.get("type", "complete")).lower();
+      type != "complete" && type != "cyclic" && type != "block")
+    refuse(place, fmt::format("#pragma HLS ARRAY_PARTITION type={}: it is complete, cyclic or block", type));
   if (variable.empty()) refuse(place, "#pragma HLS ARRAY_PARTITION without variable=NAME: name the array");
   if (has_kind(pragma, "cyclic") || has_kind(pragma, "block")) {
     notes.push_back(
@@ -74,7 +107,8 @@ std::string partition_call(const pragma_line& pragma, const source_place& place,
                     place.file, place.line, variable));
     return "";
   }
-  return fmt::format("__epiline_pragma_partition((const void*)&({}), {});", variable, pragma.get("dim", "1"));
+  return fmt::format("__epiline_pragma_partition((const void*)&({}), {});", variable,
+                     number_of(pragma, "dim", 1, 0, place));
 }
 
 void check_interface(const pragma_line& pragma, const source_place& place) {
@@ -86,6 +120,7 @@ void check_interface(const pragma_line& pragma, const source_place& place) {
   std::string mode = pragma.get("mode");
   for (const auto& [key, value] : pragma.options)
     if (mode.empty() && value.empty()) mode = key;
+  if (mode.empty()) refuse(place, "#pragma HLS INTERFACE without a mode: name it, for example axis");
   refuse(place, "#pragma HLS INTERFACE " + mode +
                     ": only stream and scalar interfaces exist here (axis, s_axilite, ap_none, "
                     "ap_ctrl_none ...): pass data through hls::stream parameters instead of memory interfaces");
@@ -93,10 +128,13 @@ void check_interface(const pragma_line& pragma, const source_place& place) {
 
 std::string replacement(const pragma_line& pragma, const source_place& place, std::vector<std::string>& notes) {
   if (pragma.name == "pipeline") {
+    check_options(pragma, {"ii", "off", "rewind", "enable_flush", "style"}, place);
     if (pragma.has("off")) return "";
-    return fmt::format("__epiline_pragma_pipeline({});", pragma.get("ii", "1"));
+    return fmt::format("__epiline_pragma_pipeline({});", number_of(pragma, "ii", 1, 1, place));
   }
   if (pragma.name == "unroll") {
+    check_options(pragma, {"factor", "skip_exit_check", "region", "off"}, place);
+    if (pragma.has("off")) return "";
     if (pragma.has("factor"))
       refuse(place,
              "#pragma HLS UNROLL factor=N: only full unrolling is supported: drop the factor, or write the "
@@ -107,7 +145,9 @@ std::string replacement(const pragma_line& pragma, const source_place& place, st
   if (pragma.name == "array_partition") return partition_call(pragma, place, notes);
   if (pragma.name == "interface") {
     check_interface(pragma, place);
-    return "";
+    // Clang finds out whether the parameter exists; no code comes of it.
+    const std::string port = pragma.get("port");
+    return port.empty() || llvm::StringRef(port).lower() == "return" ? "" : fmt::format("(void)sizeof({});", port);
   }
   // What these ask for is what this flow always does (everything is inlined and pipelined, trees are balanced, loop
   // nests are flattened), or they only inform.
@@ -129,6 +169,12 @@ std::string replacement(const pragma_line& pragma, const source_place& place, st
     refuse(place,
            "#pragma HLS DATAFLOW: concurrent functions joined by internal streams are not supported: call "
            "kernels one after another inside one loop, or generate one module a function");
+  if (pragma.name.empty()) refuse(place, "#pragma HLS without a name: remove it");
+  static const char* const honoured[] = {"pipeline", "unroll", "dependence", "array_partition", "interface", "inline"};
+  for (const char* name : honoured)
+    if (llvm::StringRef(name).edit_distance(pragma.name) <= 2)
+      refuse(place, fmt::format("#pragma HLS {}: not known: did you mean {}?", llvm::StringRef(pragma.name).upper(),
+                                llvm::StringRef(name).upper()));
   refuse(place, fmt::format("#pragma HLS {}: not known: remove it", llvm::StringRef(pragma.name).upper()));
 }
 
@@ -162,7 +208,10 @@ pragma_rewrite rewrite_pragmas(const std::string& preprocessed) {
     if (!follow_marker(line, place)) {
       llvm::StringRef text = line.trim();
       if (text.consume_front("#pragma") && (text = text.ltrim(), text.take_front(3).equals_insensitive("HLS"))) {
-        result.source += replacement(parse(text.drop_front(3)), place, result.notes) + "\n";
+        const pragma_line pragma = parse(text.drop_front(3));
+        const source_place near = {shown_path(place.file), place.line};
+        result.places[{place.file, place.line}] = llvm::StringRef(pragma.name).upper();
+        result.source += replacement(pragma, near, result.notes) + "\n";
         ++place.line;
         continue;
       }

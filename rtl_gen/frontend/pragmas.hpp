@@ -3,14 +3,20 @@
 // through inlining and templates. Each pragma is honoured, accepted because the flow does the same by itself, or
 // refused: none is ignored in silence.
 
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace epiline::frontend {
 
+/// Where pragmas stand, by file and line: their names.
+using pragma_places = std::map<std::pair<std::string, unsigned>, std::string>;
+
 struct pragma_rewrite {
   std::string source;              // preprocessed source, pragmas replaced by calls on the same lines
   std::vector<std::string> notes;  // pragmas that have no effect here and why, "FILE:LINE: note: ..."
+  pragma_places places;
 };
 
 /// Rewrites preprocessed source (with clang's line markers). Throws `refused` for a pragma that cannot be honoured.

@@ -23,11 +23,7 @@ file_facts find_facts(const llvm::DIFile& file) {
   // Debug information names files relative to the compilation folder when they lie below it.
   const fs::path name = file.getFilename().str();
   const fs::path full = (name.is_absolute() ? name : fs::path(file.getDirectory().str()) / name).lexically_normal();
-  const std::string near = full.lexically_proximate(fs::current_path()).string();
-  const llvm::StringRef path = full.native();
-  const bool anonymous = file.getFilename().starts_with("<") || path.starts_with("/usr/") ||
-                         path.starts_with(EPILINE_TYPES_DIRECTORY) || path.starts_with(EPILINE_FRONTEND_INCLUDES);
-  return {anonymous, near.size() < full.native().size() ? near : full.string()};
+  return {file.getFilename().starts_with("<") || !is_users_file(full.string()), shown_path(full.string())};
 }
 
 const file_facts& facts_of(const llvm::DIFile& file) {
@@ -46,9 +42,21 @@ const file_facts& facts_of(const llvm::DIFile& file) {
 }
 
 bool is_anonymous(const llvm::DIFile& file) { return facts_of(file).anonymous; }
-std::string shown_path(const llvm::DIFile& file) { return facts_of(file).shown; }
+const std::string& shown_path(const llvm::DIFile& file) { return facts_of(file).shown; }
 
 }  // namespace
+
+bool is_users_file(const std::string& path) {
+  const llvm::StringRef text = path;
+  return !text.starts_with("<") && !text.starts_with("/usr/") && !text.starts_with(EPILINE_TYPES_DIRECTORY) &&
+         !text.starts_with(EPILINE_FRONTEND_INCLUDES);
+}
+
+std::string shown_path(const std::string& path) {
+  const fs::path full = fs::absolute(path).lexically_normal();
+  const std::string near = full.lexically_proximate(fs::current_path()).string();
+  return near.size() < full.native().size() ? near : full.string();
+}
 
 source_place place_of(const llvm::DebugLoc& location) {
   const llvm::DILocation* at = location.get();
@@ -73,6 +81,16 @@ source_place place_of(const llvm::Function& function) {
   return {};
 }
 
+source_place place_of(const llvm::Loop& loop) {
+  const source_place place = place_of(loop.getStartLoc());
+  return place.line != 0 ? place : place_of(*loop.getHeader()->getFirstNonPHI());
+}
+
+bool is_users(const llvm::Function& function) {
+  const llvm::DISubprogram* program = function.getSubprogram();
+  return program != nullptr && !is_anonymous(*program->getFile());
+}
+
 source_place place_of(const llvm::DIVariable& variable) {
   if (variable.getFile() == nullptr) return {};
   return {shown_path(*variable.getFile()), variable.getLine()};
@@ -83,6 +101,12 @@ void refuse(const source_place& place, const std::string& what) {
   throw refused(fmt::format("{}:{}: error: {}", place.file, place.line, what));
 }
 
-std::string readable_name(const llvm::Function& function) { return llvm::demangle(function.getName().str()); }
+std::string readable_name(const llvm::Function& function) {
+  const std::string name = llvm::demangle(function.getName().str());
+  if (!llvm::StringRef(name).starts_with("_Z")) return name;
+  // What the demangler cannot read: a lambda's, above all.
+  const llvm::DISubprogram* program = function.getSubprogram();
+  return program == nullptr || program->getName().starts_with("operator()") ? "a lambda" : program->getName().str();
+}
 
 }  // namespace epiline::frontend

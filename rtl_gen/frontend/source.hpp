@@ -1,6 +1,7 @@
 #pragma once
 // Where things come from in the user's source, and the one error every part of the frontend reports with.
 
+#include <llvm/Analysis/LoopInfo.h>
 #include <llvm/IR/DebugInfoMetadata.h>
 #include <llvm/IR/DebugLoc.h>
 #include <llvm/IR/Function.h>
@@ -32,6 +33,15 @@ struct source_place {
 [[nodiscard]] source_place place_of(const llvm::Instruction& instruction);
 [[nodiscard]] source_place place_of(const llvm::Function& function);
 [[nodiscard]] source_place place_of(const llvm::DIVariable& variable);
+/// The line of `for`, `while` or `do`.
+[[nodiscard]] source_place place_of(const llvm::Loop& loop);
+
+/// Whether a file is the user's: neither of the types, nor of the frontend, nor of the system.
+[[nodiscard]] bool is_users_file(const std::string& path);
+/// A path as a person would write it from here.
+[[nodiscard]] std::string shown_path(const std::string& path);
+
+[[nodiscard]] bool is_users(const llvm::Function& function);
 
 /// Throws `refused` at a place: what was found there, and what to do instead.
 [[noreturn]] void refuse(const source_place& place, const std::string& what);

@@ -6,7 +6,7 @@
 Every errors/NAME.cpp holds something unsupported in its top NAME. Lines that may be named carry a comment `// refused: words`, a regular
 expression (case is ignored) of which the message must contain something; `// options: ...` adds command line options. The compiler
 must name one of these lines as FILE:LINE, say the words and more, leave with an exit code from 1 to 127, and write nothing.
-The command line's own errors are in the table below.
+The command line's own errors are in the table below. A message begins with FILE:LINE: error:, and no word of compilers is in it.
 """
 
 import os
@@ -18,6 +18,10 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 KERNEL = HERE / "kernels" / "fir.cpp"
+
+# Words of compilers and places of this flow that a message must not show.
+JARGON = re.compile(r"\bllvm|\bi(1|8|16|32|64|128)\b|\bphi\b|\b_Z[A-Z0-9]|getelementptr|ptrtoint|\bicmp\b|%\w"
+                    r"|__epiline|<epiline|/epiline-hls-|/hls/types/|call_top|static assertion|_BitInt|\[-W")
 
 # (name, arguments, regular expression); {out} is a folder that does not exist, {source} a good kernel, {file} a plain file.
 COMMAND_LINES = [
@@ -39,6 +43,17 @@ COMMAND_LINES = [
     ("unknown option", ["{source}", "--top", "fir", "--frobnicate", "-o", "{out}"], r"--frobnicate"),
     ("registers without arguments", ["{source}", "--top", "fir", "--axi-lite", "-o", "{out}"],
      r"--axi-lite: the top 'fir' has no scalar arguments"),
+    ("interval 0", ["{source}", "--top", "fir", "--ii", "0", "-o", "{out}"], r"--ii 0: give a number from 1"),
+    ("interval in words", ["{source}", "--top", "fir", "--ii", "two", "-o", "{out}"], r"--ii two: give a number"),
+    ("negative interval", ["{source}", "--top", "fir", "--ii=-1", "-o", "{out}"], r"--ii -1: give a number"),
+    ("unknown schedule", ["{source}", "--top", "fir", "--schedule", "best", "-o", "{out}"], r"--schedule.*best"),
+    ("seed in words", ["{source}", "--top", "fir", "--seed", "lucky", "-o", "{out}"], r"--seed.*lucky"),
+    ("empty file", ["{empty}", "--top", "fir", "-o", "{out}"], r"{empty}.*no function 'fir'"),
+    ("binary file", ["{binary}", "--top", "fir", "-o", "{out}"], r"binary\.cpp: error: there is no function"),
+    ("top in a namespace", ["{source}", "--top", "nowhere::fir", "-o", "{out}"], r"no function 'nowhere::fir'"),
+    ("two sources", ["{source}", "{source}", "--top", "fir", "-o", "{out}"], r"not expected|fir\.cpp"),
+    ("makefile rule below a file", ["{source}", "--top", "fir", "-o", "{out}", "--depfile", "{file}/rule.d"],
+     r"{file}/rule\.d"),
     ("period below any operation", ["{source}", "--top", "fir", "--clock", "0.01ns", "-o", "{out}"], r"period"),
 ]
 
@@ -67,8 +82,11 @@ def judge(result, out):
         problems.append(f"crashed ({result.returncode})")
     if not clean(out):
         problems.append("left output: " + ", ".join(sorted(p.name for p in out.rglob("*"))))
-    if re.search(r"LLVM ERROR|Stack dump|Assertion|terminate called", result.stderr):
+    if re.search(r"LLVM ERROR|Stack dump|Assertion|terminate called|error of epiline-hls", result.stderr):
         problems.append("ended by an internal error")
+    jargon = JARGON.search(result.stderr)
+    if jargon:
+        problems.append(f"speaks of {jargon.group()!r}, which is no word of the user's")
     return problems
 
 
@@ -89,8 +107,10 @@ def check_source(compiler, source, folder):
     problems = judge(result, out)
     if result is None:
         return problems, ""
-    errors = [l for l in result.stderr.splitlines() if "error" in l or re.search(r"\.cpp:\d+", l)]
-    named = [int(n) for l in errors for n in re.findall(re.escape(source.name) + r":(\d+)", l)]
+    first = re.match(r"(?:.*/)?" + re.escape(source.name) + r":(\d+): error: \S", result.stderr)
+    if not first:
+        problems.append("does not begin with FILE:LINE: error: TEXT")
+    named = [int(first.group(1))] if first else []
     if not set(named) & set(lines):
         problems.append(f"names line(s) {sorted(set(named)) or 'none'}, not {lines}")
     if not re.search("|".join(words), result.stderr, re.IGNORECASE):
@@ -102,7 +122,12 @@ def check_command_line(compiler, arguments, expression, folder):
     out = folder / "out"
     plain = folder / "plain_file"
     plain.write_text("untouched", encoding="utf-8")
-    values = {"out": str(out), "source": str(KERNEL), "file": str(plain), "folder": str(folder)}
+    empty = folder / "empty.cpp"
+    empty.write_bytes(b"")
+    binary = folder / "binary.cpp"
+    binary.write_bytes(bytes(range(256)) * 64)
+    values = {"out": str(out), "source": str(KERNEL), "file": str(plain), "folder": str(folder), "empty": str(empty),
+              "binary": str(binary)}
     result = run(compiler, [a.format(**values) for a in arguments])
     problems = judge(result, out)
     if plain.read_text(encoding="utf-8") != "untouched":
@@ -122,6 +147,30 @@ def check_write_protected(compiler, folder):
     return problems, "" if result is None else result.stderr
 
 
+def check_crash(compiler, kind, folder):
+    """An error of the compiler itself: one line, and a folder with all that is needed to see it again."""
+    out = folder / "out"
+    temporary = folder / "temporary"
+    temporary.mkdir()
+    environment = dict(os.environ, TMPDIR=str(temporary))
+    result = subprocess.run([compiler, str(KERNEL), "--top", "fir", "-o", str(out), "--crash", kind], timeout=60,
+                            capture_output=True, text=True, env=environment, check=False)
+    problems = [] if result.returncode == 70 else [f"exit code {result.returncode}, not 70"]
+    if not clean(out):
+        problems.append("left output")
+    told = re.fullmatch(r"error: this is an error of epiline-hls: .*: please report it with the source and the command "
+                        r"in (/.*)\n", result.stderr)
+    if not told:
+        return problems + ["does not tell where the reproducer is"], result.stderr
+    saved = pathlib.Path(told.group(1))
+    if str(KERNEL) not in (saved / "command.txt").read_text(encoding="utf-8"):
+        problems.append("does not save the command")
+    again = run(compiler, [str(saved / "source.cpp"), "--top", "fir", "-o", str(out)])
+    if again is None or again.returncode != 0 or not (out / "fir.v").is_file():
+        problems.append("the saved source does not compile: " + ("" if again is None else again.stderr))
+    return problems, result.stderr
+
+
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__.split("\n\n")[1])
@@ -131,6 +180,8 @@ def main():
         checks.append((source.stem, lambda f, s=source: check_source(compiler, s, f)))
     for name, arguments, expression in COMMAND_LINES:
         checks.append((name, lambda f, a=arguments, e=expression: check_command_line(compiler, a, e, f)))
+    for kind in ("exception", "fatal", "signal", "stack"):
+        checks.append(("crash by " + kind, lambda f, k=kind: check_crash(compiler, k, f)))
     checks.append(("write-protected output", lambda f: check_write_protected(compiler, f)))
     bad = 0
     total = 0

@@ -241,7 +241,7 @@ TEST(emit_verilog, refuses_ports_it_cannot_name) {
   refuses([](graph& g) { g.ports[0].fields[0].signal = "fire"; }, "'fire' has the name of a control signal");
   refuses([](graph& g) { g.ports[0].fields[0].signal = "output"; }, "'output' cannot have that name");
   refuses([](graph& g) { g.ports[0].fields[1].signal = "length"; },
-          "kernel.cpp:1: port signal 'length' has the name of another signal");
+          "kernel.cpp:1: error: port signal 'length' has the name of another signal");
 }
 
 TEST(make_plan, puts_long_waits_into_ram) {

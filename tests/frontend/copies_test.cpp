@@ -126,7 +126,7 @@ TEST(copies, that_no_clock_can_do_are_refused) {
   };
   for (const auto& [body, words] : cases) {
     small_module module(with_body(body));
-    EXPECT_THAT(refusal_of([&] { expand_copies(module.function(), unknown_types::kept); }), HasSubstr(words));
+    EXPECT_THAT(refusal_of([&] { expand_copies(module.function(), unknown_types::refused); }), HasSubstr(words));
   }
 }
 

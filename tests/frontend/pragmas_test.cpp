@@ -45,15 +45,19 @@ TEST(pragmas, that_are_honoured_become_calls) {
        "__epiline_pragma_dependence((const void*)&(ram), 1000000);"},
       {"#pragma HLS DEPENDENCE variable=ram type=inter distance=4 true",
        "__epiline_pragma_dependence((const void*)&(ram), 4);"},
+      {"#pragma HLS DEPENDENCE variable=ram type=inter distance=shortest true",
+       "__epiline_pragma_dependence((const void*)&(ram), shortest);"},
       {"#pragma HLS DEPENDENCE variable=ram intra false", ""},
+      {"#pragma HLS UNROLL off", ""},
+      // No code comes of it; clang says when there is no such parameter.
+      {"#pragma HLS INTERFACE axis port=x", "(void)sizeof(x);"},
   };
   for (const auto& [line, call] : cases) EXPECT_EQ(rewritten(line), call) << line;
 }
 
 TEST(pragmas, that_ask_for_what_happens_anyway_vanish_without_a_word) {
-  for (const char* line :
-       {"#pragma HLS INLINE", "#pragma HLS LOOP_TRIPCOUNT min=1 max=9", "#pragma HLS INTERFACE axis port=x",
-        "#pragma HLS INTERFACE mode=s_axilite port=x", "#pragma HLS LATENCY max=3"}) {
+  for (const char* line : {"#pragma HLS INLINE", "#pragma HLS LOOP_TRIPCOUNT min=1 max=9",
+                           "#pragma HLS INTERFACE ap_ctrl_none port=return", "#pragma HLS LATENCY max=3"}) {
     std::vector<std::string> notes;
     EXPECT_EQ(rewritten(line, &notes), "") << line;
     EXPECT_THAT(notes, IsEmpty()) << line;
@@ -77,7 +81,17 @@ TEST(pragmas, that_cannot_be_honoured_are_refused_with_file_and_line) {
       {"#pragma HLS INTERFACE mode=bram port=x", "#pragma HLS INTERFACE bram: only stream and scalar interfaces"},
       {"#pragma HLS DEPENDENCE inter false", "DEPENDENCE without variable=NAME"},
       {"#pragma HLS ARRAY_PARTITION complete", "ARRAY_PARTITION without variable=NAME"},
-      {"#pragma HLS PIPELYNE", "#pragma HLS PIPELYNE: not known: remove it"},
+      {"#pragma HLS PIPELYNE", "#pragma HLS PIPELYNE: not known: did you mean PIPELINE?"},
+      {"#pragma HLS SOMETHING", "#pragma HLS SOMETHING: not known: remove it"},
+      {"#pragma HLS", "#pragma HLS without a name"},
+      {"#pragma HLS PIPELINE II=0", "PIPELINE II=0: give a number from 1 on"},
+      {"#pragma HLS PIPELINE II=", "PIPELINE II=: give a number from 1 on"},
+      {"#pragma HLS PIPELINE II=99999999999", "II=99999999999: give a number from 1 on"},
+      {"#pragma HLS PIPELINE interval=2", "the option 'interval' is not known: it takes ii, off"},
+      {"#pragma HLS ARRAY_PARTITION variable=x dim=-1", "DIM=-1: give a number from 0 on"},
+      {"#pragma HLS ARRAY_PARTITION variable=x type=all", "type=all: it is complete, cyclic or block"},
+      {"#pragma HLS DEPENDENCE variable=x inter distance=0", "DISTANCE=0: give a number from 1 on"},
+      {"#pragma HLS INTERFACE port=x", "INTERFACE without a mode"},
   };
   for (const auto& [line, words] : cases) {
     const std::string refusal = refusal_of([&] { static_cast<void>(rewritten(line)); });

@@ -12,7 +12,8 @@ extern "C" {
 void __epiline_argument(int index, void* value, const void* type) noexcept;
 void __epiline_result(int index, const void* value, const void* type) noexcept;
 void __epiline_port(int index, const void* stream) noexcept;
-void __epiline_unsupported_parameter(int index) noexcept;
+void __epiline_unwritten(int index, void* value, const void* type) noexcept;
+void __epiline_unsupported_parameter(int index, int reason) noexcept;
 }
 
 namespace epiline::detail {
@@ -58,10 +59,11 @@ struct parameter<bool, Index> {
 template <class T, int Index>
 struct parameter<const T&, Index> : parameter<T, Index> {};
 
+// A result. What it holds before the top writes it is nobody's: a call that gives that out is refused.
 template <class T, int Index>
-struct parameter<T&, Index> {  // a result
+struct parameter<T&, Index> {
   T value;
-  parameter() {}
+  parameter() { __epiline_unwritten(Index, &value, &parameter_type_tag<typename scalar_token<T>::type>::object); }
   T& pass() { return value; }
   void finish() const { __epiline_result(Index, &value, &parameter_type_tag<typename scalar_token<T>::type>::object); }
 };
@@ -69,7 +71,7 @@ struct parameter<T&, Index> {  // a result
 template <int Index>
 struct parameter<bool&, Index> {
   bool value;
-  parameter() {}
+  parameter() { __epiline_unwritten(Index, &value, &parameter_type_tag<unsigned char>::object); }
   bool& pass() { return value; }
   void finish() const {
     const ap_uint<1> bit = value;
@@ -87,20 +89,42 @@ struct stream_parameter {
 template <class T, int Depth, int Index>
 struct parameter<hls::stream<T, Depth>&, Index> : stream_parameter<hls::stream<T, Depth>, Index> {};
 
-template <class T, int Index>
-struct parameter<T*, Index> {
-  parameter() { __epiline_unsupported_parameter(Index); }
-  T* pass() const { return nullptr; }
-  void finish() const {}
+// The frontend has a sentence for each.
+enum class reason { pointer, array, stream_by_value, rvalue };
+
+template <int Index, reason Reason>
+struct unsupported_parameter {
+  unsupported_parameter() { __epiline_unsupported_parameter(Index, static_cast<int>(Reason)); }
 };
+
+template <class T, int Index>
+struct parameter<T*, Index> : unsupported_parameter<Index, reason::pointer> {};
+template <class T, unsigned long N, int Index>
+struct parameter<T (&)[N], Index> : unsupported_parameter<Index, reason::array> {};
+template <class T, unsigned long N, int Index>
+struct parameter<const T (&)[N], Index> : unsupported_parameter<Index, reason::array> {};
+template <class T, int Depth, int Index>
+struct parameter<hls::stream<T, Depth>, Index> : unsupported_parameter<Index, reason::stream_by_value> {};
+template <class T, int Depth, int Index>
+struct parameter<const hls::stream<T, Depth>&, Index> : unsupported_parameter<Index, reason::stream_by_value> {};
+template <class T, int Index>
+struct parameter<T&&, Index> : unsupported_parameter<Index, reason::rvalue> {};
+
+constexpr bool is_unsupported(...) { return false; }
+template <int Index, reason Reason>
+constexpr bool is_unsupported(const unsupported_parameter<Index, Reason>*) {
+  return true;
+}
 
 template <int... Index>
 struct indices {};
 
 template <auto Top, class... Parameters>
 void pass_parameters(Parameters&&... parameters) {
-  Top(parameters.pass()...);
-  (parameters.finish(), ...);
+  if constexpr (!(is_unsupported(static_cast<Parameters*>(nullptr)) || ...)) {
+    Top(parameters.pass()...);
+    (parameters.finish(), ...);
+  }
 }
 
 template <class T>

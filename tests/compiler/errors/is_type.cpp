@@ -1,0 +1,6 @@
+#include "ap_int.h"
+#include "hls_stream.h"
+
+struct is_type {  // refused: function
+  int x;
+};

@@ -1,0 +1,4 @@
+#include "ap_int.h"
+#include "hls_stream.h"
+
+void without_parameters() {}  // refused: parameter|stream
