@@ -89,8 +89,9 @@ std::vector<std::string> files_of(const std::string& preprocessed) {
 }
 
 std::string wrapper_source(const source_options& options) {
+  // The flow's headers first: the source may define macros of any name.
   return fmt::format(
-      "#include \"{}\"\n#include <epiline/call_top.hpp>\n#line 1 \"{}\"\n"
+      "#include <epiline/call_top.hpp>\n#include \"{}\"\n#line 1 \"{}\"\n"
       "extern \"C\" void {}() {{ epiline::detail::call_for_ever<&::{}>(&::{}); }}\n",
       fs::absolute(options.source).lexically_normal().string(), wrapper_file, process_name, options.top, options.top);
 }

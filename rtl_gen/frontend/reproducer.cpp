@@ -7,7 +7,7 @@
 namespace epiline::frontend {
 
 std::string standalone_source(const std::string& preprocessed) {
-  std::string result;
+  std::string result = "#include \"ap_int.h\"\n#include \"hls_stream.h\"\n";
   bool inside_users = true;
   llvm::StringRef rest = preprocessed;
   while (!rest.empty()) {
@@ -20,9 +20,9 @@ std::string standalone_source(const std::string& preprocessed) {
     // `# 12 "file.cpp" 1`: file.cpp is entered; 2: it goes on.
     const auto [before, quoted] = line.split('"');
     const auto [path, flags] = quoted.split('"');
-    if (path.ends_with("epiline/call_top.hpp")) break;  // behind the user's source
     const bool is_users = is_users_file(path.str()) || path.empty();
-    if (inside_users && !is_users && path.starts_with("/") && flags.trim().starts_with("1"))
+    if (inside_users && !is_users && path.starts_with("/") && flags.trim().starts_with("1") &&
+        !path.ends_with("epiline/call_top.hpp"))
       result += "#include \"" + path.str() + "\"\n";
     inside_users = is_users;
   }

@@ -49,7 +49,7 @@ COMMAND_LINES = [
     ("unknown schedule", ["{source}", "--top", "fir", "--schedule", "best", "-o", "{out}"], r"--schedule.*best"),
     ("seed in words", ["{source}", "--top", "fir", "--seed", "lucky", "-o", "{out}"], r"--seed.*lucky"),
     ("empty file", ["{empty}", "--top", "fir", "-o", "{out}"], r"{empty}.*no function 'fir'"),
-    ("binary file", ["{binary}", "--top", "fir", "-o", "{out}"], r"binary\.cpp: error: there is no function"),
+    ("binary file", ["{binary}", "--top", "fir", "-o", "{out}"], r"binary\.cpp:1: error: "),
     ("top in a namespace", ["{source}", "--top", "nowhere::fir", "-o", "{out}"], r"no function 'nowhere::fir'"),
     ("two sources", ["{source}", "{source}", "--top", "fir", "-o", "{out}"], r"not expected|fir\.cpp"),
     ("makefile rule below a file", ["{source}", "--top", "fir", "-o", "{out}", "--depfile", "{file}/rule.d"],

@@ -99,10 +99,10 @@ struct unsupported_parameter {
 
 template <class T, int Index>
 struct parameter<T*, Index> : unsupported_parameter<Index, reason::pointer> {};
-template <class T, unsigned long N, int Index>
-struct parameter<T (&)[N], Index> : unsupported_parameter<Index, reason::array> {};
-template <class T, unsigned long N, int Index>
-struct parameter<const T (&)[N], Index> : unsupported_parameter<Index, reason::array> {};
+template <class T, unsigned long Size, int Index>
+struct parameter<T (&)[Size], Index> : unsupported_parameter<Index, reason::array> {};
+template <class T, unsigned long Size, int Index>
+struct parameter<const T (&)[Size], Index> : unsupported_parameter<Index, reason::array> {};
 template <class T, int Depth, int Index>
 struct parameter<hls::stream<T, Depth>, Index> : unsupported_parameter<Index, reason::stream_by_value> {};
 template <class T, int Depth, int Index>

@@ -1,0 +1,13 @@
+#include "ap_int.h"
+#include "hls_stream.h"
+
+// Macros of short names, as they are usual for sizes: the message must speak of the parameter, not of the flow's
+// headers.
+#define N 32
+#define T int
+#define P 3
+
+void macro_of_one_letter(hls::stream<T>& in, T (&table)[N],  // refused: 'table' is an array by reference
+                         hls::stream<T>& out) {
+  out.write(in.read() + table[P]);
+}
