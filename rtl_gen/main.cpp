@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "dataflow/text.hpp"
 #include "emit/register_map.hpp"
 #include "emit/report.hpp"
+#include "emit/report_page.hpp"
 #include "emit/verilog.hpp"
 #include "frontend/frontend.hpp"
 #include "frontend/reproducer.hpp"
@@ -145,6 +147,16 @@ std::string dependency_file(const std::string& target, const std::vector<std::st
   return text + "\n";
 }
 
+/// The files that the graph names, as far as they can still be read.
+std::map<std::string, std::string> read_sources(const dataflow::graph& graph) {
+  std::map<std::string, std::string> sources;
+  for (const std::string& file : graph.files) {
+    std::ifstream in(file, std::ios::binary);
+    if (in) sources[file] = {std::istreambuf_iterator<char>(in), {}};
+  }
+  return sources;
+}
+
 class stopwatch {
  public:
   double lap() {
@@ -189,6 +201,7 @@ void run(const command_line& given) {
   output.write(graph.name + ".graph", dataflow::print(graph));
   output.write("report.json", report.dump(2) + "\n");
   output.write("report.txt", emit::report_text(report));
+  output.write("report.html", emit::report_page(report, read_sources(graph)));
   if (given.axi_lite) {
     const emit::register_map map = emit::make_register_map(graph);
     output.write(map.module() + ".h", emit::to_c_header(map));
@@ -203,7 +216,7 @@ void run(const command_line& given) {
     std::cout << fmt::format(
         "{}: {} operations, {} stages at {:.2f} ns, one iteration every {} clock{}\n"
         "  C++ to graph {:.1f} s, passes {:.1f} s, schedule {:.1f} s, Verilog and reports {:.1f} s\n"
-        "  {}/{}.v, {}.graph, report.json, report.txt{}\n",
+        "  {}/{}.v, {}.graph, report.json, report.txt, report.html{}\n",
         graph.name, graph.nodes.size(), schedule.depth, schedule.period, schedule.initiation_interval,
         schedule.initiation_interval == 1 ? "" : "s", frontend_seconds, pass_seconds, schedule_seconds, watch.lap(),
         given.output, graph.name, graph.name,
@@ -223,7 +236,8 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "epiline-hls " EPILINE_VERSION);
   app.add_option("source", given.source.source, "the C++ file that defines the top function")->required();
   app.add_option("--top", given.source.top, "the top function's name")->required();
-  app.add_option("-o,--output", given.output, "folder for NAME.v, NAME.graph, report.json and report.txt")->required();
+  app.add_option("-o,--output", given.output, "folder for NAME.v, NAME.graph, report.json, report.txt and report.html")
+      ->required();
   app.add_option("--target", given.target, "device whose delays and memories are assumed: ecp5, hx8k, generic")
       ->capture_default_str();
   app.add_option("--clock", given.clock,

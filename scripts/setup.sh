@@ -18,8 +18,9 @@ packages=(
   # hardware tools; those of scripts/fpga.sh that are not pinned packages of PyPI, which python3-venv is for
   verilator yosys iverilog
   nextpnr-ice40 fpga-icestorm openfpgaloader python3-venv
-  # scripts (python3: the standard library only), and the check of the sources' format, which is one of the tests
-  python3 ca-certificates clang-format-19
+  # scripts (python3: the standard library only, but for the tests of report.json, which need jsonschema), and the check
+  # of the sources' format, which is one of the tests
+  python3 python3-jsonschema ca-certificates clang-format-19
 )
 lint_packages=(clang-tidy-19 shellcheck)
 

@@ -10,6 +10,7 @@
 
 #include "emit/interface.hpp"
 #include "emit/register_map.hpp"
+#include "emit/report_breakdown.hpp"
 
 namespace epiline::emit {
 
@@ -25,16 +26,7 @@ using schedule::storage_kind;
 namespace {
 
 constexpr std::size_t most_lines = 40;  // of the list of costly source lines
-
-json location(const graph& g, dataflow::source_location where) {
-  if (where.line == 0 || where.file >= g.files.size()) return nullptr;
-  return {{"file", g.files[where.file]}, {"line", where.line}};
-}
-
-std::string location_text(const json& where) {
-  return where.is_null() ? "unknown line"
-                         : fmt::format("{}:{}", where["file"].get<std::string>(), where["line"].get<unsigned>());
-}
+constexpr int schema_version = 2;       // docs/report.schema.json says what it means
 
 json describe_interface(const graph& g, bool axi_lite) {
   json ports = json::array();
@@ -63,31 +55,14 @@ json describe_interface(const graph& g, bool axi_lite) {
   return interface;
 }
 
-std::string value_name(const graph& g, const node& n) {
-  if (!n.name.empty()) return n.name;
-  switch (n.kind) {
-    case operation::register_value:
-      return g.registers[n.object].name;
-    case operation::memory_read:
-    case operation::memory_write:
-      return g.memories[n.object].name;
-    case operation::read:
-    case operation::write:
-      return g.ports[n.object].name;
-    case operation::table:
-      return g.tables[n.object].name;
-    default:
-      return "";
-  }
-}
-
 }  // namespace
 
 json make_report(const graph& g, const schedule::delay_model& model, const schedule::result& s,
                  const report_options& options) {
   const plan p = make_plan(g, model, s, options.delay_lines);
   json report;
-  report["schema"] = "epiline-report/1";
+  report["schema"] = fmt::format("epiline-report/{}", schema_version);
+  report["schema_version"] = schema_version;
   report["top"] = g.name;
   report["target"] = model.target();
   report["clock"] = {{"period_ns", s.period}, {"estimated_period_ns", s.critical_delay}};
@@ -256,6 +231,9 @@ json make_report(const graph& g, const schedule::delay_model& model, const sched
                   {"where", location(g, g.registers[slowest->state].where)}};
   }
   report["limiting_recurrence"] = recurrence;
+  report["lines"] = describe_lines(g, model, s, p);
+  report["variables"] = describe_variables(g, s, p);
+  report["limit"] = describe_limit(report);
   report["passes"] = options.passes;
   return report;
 }

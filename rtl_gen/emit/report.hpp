@@ -17,7 +17,7 @@ struct report_options {
   nlohmann::json passes = nlohmann::json::array();  // statistics of the passes, as the caller has them
 };
 
-/// Schema "epiline-report/1"; docs/ describes it. Key "interface" suffices to drive the module.
+/// Schema "epiline-report/2", docs/report.schema.json. Key "interface" suffices to drive the module.
 [[nodiscard]] nlohmann::json make_report(const dataflow::graph& g, const schedule::delay_model& model,
                                          const schedule::result& s, const report_options& options = {});
 

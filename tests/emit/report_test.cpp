@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "emit/report_page.hpp"
 #include "emit/verilog.hpp"
 #include "example_graphs.hpp"
 
@@ -19,10 +20,13 @@ json report_of(const graph& g, double period = 6) {
 
 TEST(report, has_the_schema_and_every_part) {
   const json report = report_of(make_calls());
-  EXPECT_EQ(report["schema"], "epiline-report/1");
-  for (const char* key :
-       {"top", "target", "clock", "initiation_interval", "depth", "interface", "latency_clocks", "stages", "registers",
-        "memories", "tables", "delay_lines", "fifos", "estimate", "critical_chain", "limiting_recurrence", "passes"}) {
+  EXPECT_EQ(report["schema"], "epiline-report/2");
+  EXPECT_EQ(report["schema_version"], 2);
+  for (const char* key : {"top",       "target",    "clock",          "initiation_interval",
+                          "depth",     "interface", "latency_clocks", "stages",
+                          "registers", "memories",  "tables",         "delay_lines",
+                          "fifos",     "estimate",  "critical_chain", "limiting_recurrence",
+                          "limit",     "lines",     "variables",      "passes"}) {
     EXPECT_TRUE(report.contains(key)) << key;
   }
   EXPECT_EQ(report["top"], "calls");
@@ -81,6 +85,68 @@ TEST(report, ranks_source_lines_by_their_cost) {
   ASSERT_GT(lines.size(), 3u);
   for (std::size_t i = 1; i < lines.size(); ++i) EXPECT_GE(lines[i - 1]["luts"], lines[i]["luts"]);
   EXPECT_EQ(lines[0]["where"]["line"], 102);
+}
+
+TEST(report, leads_all_that_waits_back_to_lines_and_variables) {
+  const json report = report_of(make_block_matcher(8));
+  double luts = 0;
+  std::uint64_t lines = 0, waiting = 0, state = 0, memory = 0;
+  for (const json& line : report["lines"]) {
+    luts += line["luts"].get<double>();
+    lines += line["waiting_bits"].get<std::uint64_t>();
+  }
+  for (const json& v : report["variables"]) {
+    waiting += v["waiting_bits"].get<std::uint64_t>();
+    state += v["state_bits"].get<std::uint64_t>();
+    memory += v["memory_bits"].get<std::uint64_t>();
+  }
+  const json& registers = report["registers"];
+  EXPECT_EQ(lines, registers["pipeline_bits"].get<std::uint64_t>());
+  EXPECT_EQ(waiting,
+            registers["pipeline_bits"].get<std::uint64_t>() + registers["ram_output_bits"].get<std::uint64_t>());
+  EXPECT_EQ(state, registers["state_bits"].get<std::uint64_t>());
+  std::uint64_t expected = 0;
+  for (const json& m : report["memories"]) {
+    expected += m["words"].get<std::uint64_t>() * m["width"].get<std::uint64_t>() * m["copies"].get<std::uint64_t>();
+  }
+  EXPECT_EQ(memory, expected);
+  EXPECT_LE(luts, report["estimate"]["lut4"].get<double>());
+  EXPECT_GT(luts, 0.5 * report["estimate"]["lut4"].get<double>());
+}
+
+TEST(report, says_what_limits_the_speed) {
+  EXPECT_EQ(report_of(make_adder_pipeline())["limit"]["by"], "chain");
+  const json tight = report_of(make_accumulator(16, 2), 5.7)["limit"];
+  EXPECT_EQ(tight["by"], "recurrence");
+  EXPECT_NE(tight["text"].get<std::string>().find("running_sum"), std::string::npos);
+  EXPECT_FALSE(tight["suggestion"].get<std::string>().empty());
+}
+
+TEST(report_page, shows_the_source_and_escapes_everything) {
+  graph g = make_histogram(4);
+  g.name = "<script>alert(1)</script>";
+  g.files = {"a&b/\"kernel\".cpp"};
+  g.memories.at(0).name = "<b>'";
+  const json report = report_of(g);
+  std::string source;
+  for (int line = 1; line <= 60; ++line) source += line == 31 ? "if (a < b && c > d) \"x\";\n" : "\n";
+  const std::string page = emit::report_page(report, {{g.files[0], source}});
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+  EXPECT_EQ(page.find("<b>'"), std::string::npos);
+  EXPECT_NE(page.find("&lt;script&gt;"), std::string::npos);
+  EXPECT_NE(page.find("<td>if (a &lt; b &amp;&amp; c &gt; d) &quot;x&quot;;</td>"), std::string::npos);
+  EXPECT_NE(page.find("a&amp;b/&quot;kernel&quot;.cpp"), std::string::npos);
+  EXPECT_EQ(page, emit::report_page(report, {{g.files[0], source}}));
+}
+
+TEST(report_page, does_without_a_source_that_is_gone) {
+  const json report = report_of(make_histogram(4));
+  const std::string page = emit::report_page(report, {});
+  EXPECT_NE(page.find("kernel.cpp:31"), std::string::npos);
+  EXPECT_EQ(page.find("href"), std::string::npos);  // there is nothing to lead to
+  for (const json& line : report["lines"]) {
+    EXPECT_NE(page.find("l" + std::to_string(line["where"]["line"].get<unsigned>()) + "\""), std::string::npos);
+  }
 }
 
 TEST(report, shows_the_critical_chain_and_the_recurrence) {
