@@ -67,7 +67,7 @@ class stream_base {
   void set_name(const char* name) { name_ = name; }
   /// Tokens now in the stream.
   std::size_t size() const { return static_cast<std::size_t>(written_ - read_); }
-  /// Tokens the stream can hold; of an unbounded one, the largest std::size_t.
+  /// The depth; of a stream that says none, the largest std::size_t.
   std::size_t capacity() const { return depth_ == 0 ? std::numeric_limits<std::size_t>::max() : depth_; }
   bool empty() const { return written_ == read_; }
   bool full() const { return depth_ != 0 && size() >= depth_; }
@@ -176,9 +176,8 @@ class stream<T, 0> : public detail::stream_base {
     return true;
   }
 
-  /// Appends a token. Throws stream_error if a bounded stream is full.
+  /// Appends a token, whatever the depth: natively the reader runs when the writer has returned.
   void write(const T& value) {
-    if (full()) fail("write to");
     if (size() == slot_count_) grow();
     slots_[written_ & mask_] = value;
     count_write();

@@ -32,7 +32,7 @@ class stream<T, 0> {
  public:
   using value_type = T;
 
-  constexpr stream() {}
+  stream() = default;  // an array of streams is made without a loop
   constexpr explicit stream(const char*) {}
   stream(const stream&) = delete;
   stream& operator=(const stream&) = delete;
