@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 #include <llvm/ADT/SmallString.h>
-#include <llvm/ADT/StringExtras.h>
-#include <llvm/ADT/StringRef.h>
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 #include <map>
+
+#include "dataflow/text_pieces.hpp"
 
 namespace epiline::dataflow {
 
@@ -35,8 +34,6 @@ const char* object_word(operation kind) {
   }
 }
 
-constexpr port_kind port_kinds[] = {port_kind::stream, port_kind::call, port_kind::result};
-
 // ---------------------------------------------------------------------------------------------------- printing
 
 class printer {
@@ -46,7 +43,7 @@ class printer {
   std::string run() {
     put("graph {}\n", quoted(g_.name));
     for (const std::string& file : g_.files) put("file {}\n", quoted(file));
-    for (const port& p : g_.ports) print_port(p);
+    for (const port& p : g_.ports) text_ += print_port(p);
     for (const register_state& r : g_.registers) print_register(r);
     for (const memory& m : g_.memories) {
       put("memory {} {} words {}", quoted(m.name), m.words, m.width);
@@ -72,40 +69,13 @@ class printer {
     fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
   }
 
-  static std::string quoted(std::string_view text) {
-    std::string result = "\"";
-    for (const char c : text) {
-      if (c == '"' || c == '\\')
-        (result += '\\') += c;
-      else if (c == '\n')
-        result += "\\n";
-      else if (c == '\t')
-        result += "\\t";
-      else if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) >= 0x7f)
-        result += fmt::format("\\x{:02x}", static_cast<unsigned>(static_cast<unsigned char>(c)));
-      else
-        result += c;
-    }
-    return result += '"';
-  }
-
   static std::string hex(const llvm::APInt& value) {
     llvm::SmallString<32> digits;
     value.toString(digits, 16, false, false, false);
     return "0x" + digits.str().str();
   }
 
-  void end_line(const source_location& where) {
-    if (where.line != 0 || where.file != 0) put(" @{}:{}", where.file, where.line);
-    text_ += '\n';
-  }
-
-  void print_port(const port& p) {
-    put("{} {} {} {}", p.input ? "input" : "output", name_of(p.kind), quoted(p.name), p.width);
-    end_line(p.where);
-    for (const field& f : p.fields)
-      put("  field {} {} {}{}\n", quoted(f.name), quoted(f.signal), f.width, f.is_signed ? " signed" : "");
-  }
+  void end_line(const source_location& where) { text_ += place_and_end(where); }
 
   void print_register(const register_state& r) {
     put("register {} {}", quoted(r.name), r.width);
@@ -143,162 +113,18 @@ class printer {
 
 // ----------------------------------------------------------------------------------------------------- parsing
 
-/// Reads the pieces of one line. Every `need_` function throws when something else stands there.
-class line_reader {
- public:
-  line_reader(std::string_view line, unsigned number) : rest_(line), number_(number) { skip_blanks(); }
-
-  [[noreturn]] void fail(const std::string& what) const { throw text_error(fmt::format("line {}: {}", number_, what)); }
-
-  bool at_end() const { return rest_.empty() || rest_.front() == ';'; }
-
-  /// Takes `piece` if it stands here. A word is taken only whole.
-  bool take(std::string_view piece) {
-    if (rest_.substr(0, piece.size()) != piece) return false;
-    const bool is_word = is_word_character(piece.back());
-    if (is_word && rest_.size() > piece.size() && is_word_character(rest_[piece.size()])) return false;
-    rest_.remove_prefix(piece.size());
-    skip_blanks();
-    return true;
-  }
-
-  void need(std::string_view piece) {
-    if (!take(piece)) unexpected(fmt::format("'{}'", piece));
-  }
-
-  std::string_view need_word(const char* expected) {
-    std::size_t length = 0;
-    while (length < rest_.size() && is_word_character(rest_[length])) ++length;
-    if (length == 0) unexpected(expected);
-    return advance(length);
-  }
-
-  std::uint32_t need_number(const char* expected, std::uint32_t least, std::uint32_t most) {
-    std::uint64_t value = 0;
-    const char* const first = rest_.data();
-    const auto [end, error] = std::from_chars(first, first + rest_.size(), value);
-    const auto length = static_cast<std::size_t>(end - first);
-    if (error == std::errc::invalid_argument || (length < rest_.size() && is_word_character(rest_[length])))
-      unexpected(expected);
-    if (error != std::errc() || value < least || value > most)
-      fail(fmt::format("found {}, expected {} from {} to {}", rest_.substr(0, std::min<std::size_t>(length, 20)),
-                       expected, least, most));
-    advance(length);
-    return static_cast<std::uint32_t>(value);
-  }
-
-  unsigned need_width() { return need_number("a width", 1, max_width); }
-
-  llvm::APInt need_value(unsigned width) {
-    if (!rest_.starts_with("0x")) unexpected("a value 0x...");
-    std::size_t length = 2;
-    while (length < rest_.size() && llvm::isHexDigit(rest_[length])) ++length;
-    if (length == 2 || (length < rest_.size() && is_word_character(rest_[length]))) unexpected("a value 0x...");
-    std::string_view digits = rest_.substr(2, length - 2);
-    digits.remove_prefix(std::min(digits.find_first_not_of('0'), digits.size() - 1));
-    if (digits.size() > (width + 3) / 4) fail(fmt::format("the value does not fit, expected at most {} bits", width));
-    // A little room, so that a first digit of more bits than the width can be seen.
-    const llvm::APInt value(width + 4, llvm::StringRef(digits.data(), digits.size()), 16);
-    if (value.getActiveBits() > width) fail(fmt::format("the value does not fit, expected at most {} bits", width));
-    advance(length);
-    return value.trunc(width);
-  }
-
-  node_id need_node() {
-    if (rest_.empty() || rest_.front() != '%') unexpected("a node %N");
-    rest_.remove_prefix(1);
-    return need_number("a node number", 0, none - 1);
-  }
-
-  std::string need_string(const char* expected) {
-    if (rest_.empty() || rest_.front() != '"') unexpected(expected);
-    std::string result;
-    std::size_t i = 1;
-    for (;; ++i) {
-      if (i >= rest_.size()) fail("the string has no end, expected '\"'");
-      if (rest_[i] == '"') break;
-      if (rest_[i] != '\\') {
-        result += rest_[i];
-        continue;
-      }
-      ++i;
-      const char escape = i < rest_.size() ? rest_[i] : '\0';
-      if (escape == '"' || escape == '\\') {
-        result += escape;
-      } else if (escape == 'n' || escape == 't') {
-        result += escape == 'n' ? '\n' : '\t';
-      } else if (escape == 'x' && i + 2 < rest_.size() && llvm::isHexDigit(rest_[i + 1]) &&
-                 llvm::isHexDigit(rest_[i + 2])) {
-        result += static_cast<char>(llvm::hexFromNibbles(rest_[i + 1], rest_[i + 2]));
-        i += 2;
-      } else {
-        fail("unknown escape in a string, expected \\\" \\\\ \\n \\t or \\xNN");
-      }
-    }
-    advance(i + 1);
-    return result;
-  }
-
-  bool at_string() const { return !rest_.empty() && rest_.front() == '"'; }
-
-  /// `@file:line`, if it stands here, and then the line's end.
-  source_location need_place_and_end() {
-    source_location where;
-    if (take("@")) {
-      where.file = need_number("a file number", 0, none);
-      need(":");
-      where.line = need_number("a line number", 0, none);
-    }
-    need_end();
-    return where;
-  }
-
-  void need_end() {
-    if (!at_end()) unexpected("the end of the line");
-  }
-
-  [[noreturn]] void unexpected(std::string_view expected) const {
-    std::size_t length = 0;
-    while (length < rest_.size() && length < 20 && is_word_character(rest_[length])) ++length;
-    std::string found =
-        at_end() ? "the end of the line" : fmt::format("'{}'", rest_.substr(0, std::max<std::size_t>(length, 1)));
-    if (!at_end() && length == 0 && !llvm::isPrint(rest_.front()))
-      found = fmt::format("byte 0x{:02x}", static_cast<unsigned>(static_cast<unsigned char>(rest_.front())));
-    fail(fmt::format("found {}, expected {}", found, expected));
-  }
-
- private:
-  static bool is_word_character(char c) { return llvm::isAlnum(c) || c == '_'; }
-
-  std::string_view advance(std::size_t length) {
-    const std::string_view piece = rest_.substr(0, length);
-    rest_.remove_prefix(length);
-    skip_blanks();
-    return piece;
-  }
-
-  void skip_blanks() {
-    while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\t' || rest_.front() == '\r'))
-      rest_.remove_prefix(1);
-  }
-
-  std::string_view rest_;
-  unsigned number_;
-};
-
 class parser {
  public:
-  explicit parser(std::string_view text) : text_(text) {
+  parser(std::string_view text, unsigned lines_before) : text_(text), number_(lines_before) {
     for (int i = 0; i <= static_cast<int>(operation::extend_sign); ++i)
       operations_[name_of(static_cast<operation>(i))] = static_cast<operation>(i);
   }
 
   graph run() {
-    unsigned number = 0;
     bool named = false;
     while (!text_.empty()) {
       const std::size_t length = std::min(text_.find('\n'), text_.size());
-      line_reader line(text_.substr(0, length), ++number);
+      line_reader line(text_.substr(0, length), ++number_);
       text_.remove_prefix(std::min(length + 1, text_.size()));
       if (line.at_end()) continue;
       if (!named) {
@@ -310,9 +136,9 @@ class parser {
       }
       parse_item(line);
     }
-    if (!named) throw text_error(fmt::format("line {}: found the end of the text, expected 'graph'", number + 1));
+    if (!named) throw text_error(fmt::format("line {}: found the end of the text, expected 'graph'", number_ + 1));
     if (auto what = find_violation(g_); !what.empty())
-      throw text_error(fmt::format("line {}: the graph breaks a rule: {}", number, what));
+      throw text_error(fmt::format("line {}: the graph breaks a rule: {}", number_, what));
     return std::move(g_);
   }
 
@@ -326,8 +152,8 @@ class parser {
     owner_ = owner::nothing;
     if (line.take("%")) return parse_node(line);
     if (line.take("file")) return parse_file(line);
-    if (line.take("input")) return parse_port(line, true);
-    if (line.take("output")) return parse_port(line, false);
+    if (line.take("input")) return add_port(line, true);
+    if (line.take("output")) return add_port(line, false);
     if (line.take("register")) return parse_register(line);
     if (line.take("memory")) return parse_memory(line);
     if (line.take("table")) return parse_table(line);
@@ -344,34 +170,14 @@ class parser {
     line.need_end();
   }
 
-  void parse_port(line_reader& line, bool input) {
-    port p;
-    p.input = input;
-    const auto* const found = std::find_if(std::begin(port_kinds), std::end(port_kinds),
-                                           [&](port_kind kind) { return line.take(name_of(kind)); });
-    if (found == std::end(port_kinds)) line.unexpected("stream, call or result");
-    p.kind = *found;
-    p.name = line.need_string("the port's name in quotes");
-    p.width = line.need_width();
-    p.where = line.need_place_and_end();
-    g_.ports.push_back(std::move(p));
+  void add_port(line_reader& line, bool input) {
+    g_.ports.push_back(parse_port(line, input));
     owner_ = owner::port;
-    next_offset_ = 0;
   }
 
   void parse_field(line_reader& line) {
     if (owner_ != owner::port) line.fail("a field stands here, expected it after input or output");
-    field f;
-    f.name = line.need_string("the field's name in quotes");
-    f.signal = line.need_string("the signal's name in quotes");
-    f.width = line.need_width();
-    f.offset = next_offset_;
-    f.is_signed = line.take("signed");
-    line.need_end();
-    next_offset_ += f.width;
-    if (next_offset_ > max_width)
-      line.fail(fmt::format("the fields have {} bits, expected at most {}", next_offset_, max_width));
-    g_.ports.back().fields.push_back(std::move(f));
+    append_field(line, g_.ports.back());
   }
 
   void parse_register(line_reader& line) {
@@ -469,10 +275,10 @@ class parser {
   }
 
   std::string_view text_;
+  unsigned number_;  // of the line
   graph g_;
   std::map<std::string_view, operation> operations_;
   owner owner_ = owner::nothing;
-  unsigned next_offset_ = 0;
   std::uint64_t constant_bits_ = 0, memory_bits_ = 0;
 };
 
@@ -480,6 +286,8 @@ class parser {
 
 std::string print(const graph& g) { return printer(g).run(); }
 
-graph parse(std::string_view text) { return parser(text).run(); }
+graph parse(std::string_view text) { return parse_part(text, 0); }
+
+graph parse_part(std::string_view text, unsigned lines_before) { return parser(text, lines_before).run(); }
 
 }  // namespace epiline::dataflow
