@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "crash_report.hpp"
-#include "dataflow/text.hpp"
+#include "dataflow/network_text.hpp"
+#include "emit/network_report.hpp"
+#include "emit/network_verilog.hpp"
 #include "emit/register_map.hpp"
-#include "emit/report.hpp"
 #include "emit/report_page.hpp"
-#include "emit/verilog.hpp"
 #include "frontend/frontend.hpp"
 #include "frontend/reproducer.hpp"
 #include "passes/pipeline.hpp"
@@ -147,13 +147,14 @@ std::string dependency_file(const std::string& target, const std::vector<std::st
   return text + "\n";
 }
 
-/// The files that the graph names, as far as they can still be read.
-std::map<std::string, std::string> read_sources(const dataflow::graph& graph) {
+/// The files that the graphs name, as far as they can still be read.
+std::map<std::string, std::string> read_sources(const dataflow::network& network) {
   std::map<std::string, std::string> sources;
-  for (const std::string& file : graph.files) {
-    std::ifstream in(file, std::ios::binary);
-    if (in) sources[file] = {std::istreambuf_iterator<char>(in), {}};
-  }
+  for (const dataflow::graph& graph : network.processes)
+    for (const std::string& file : graph.files) {
+      std::ifstream in(file, std::ios::binary);
+      if (in) sources[file] = {std::istreambuf_iterator<char>(in), {}};
+    }
   return sources;
 }
 
@@ -179,48 +180,64 @@ void run(const command_line& given) {
   llvm::LLVMContext context;
   frontend::compiled_source source = frontend::compile(given.source, context);
   crash_on_purpose(given.crash);
+  frontend::split_top split = frontend::split_into_processes(source, given.source);
   for (const std::string& note : source.notes) std::cerr << note << '\n';
-  frontend::lowered_process process = frontend::lower(source, given.source);
-  dataflow::graph graph = frontend::build_graph(process, given.source.top.substr(given.source.top.rfind(':') + 1));
+  if (given.axi_lite && split.processes.size() > 1)
+    frontend::refuse(split.top.place,
+                     fmt::format("--axi-lite: the top '{}' is made of processes (DATAFLOW), whose scalars cannot be in "
+                                 "registers yet: leave the option away, and drive the call port",
+                                 split.name));
+  std::vector<frontend::lowered_process> lowered;
+  std::vector<dataflow::graph> graphs;
+  for (frontend::process_source& process : split.processes) {
+    lowered.push_back(frontend::lower(process));
+    graphs.push_back(frontend::build_graph(lowered.back(), process.name));
+  }
+  dataflow::network network = frontend::join_processes(split, lowered, std::move(graphs));
   const double frontend_seconds = watch.lap();
 
-  const std::vector<passes::pass_report> pass_log = passes::run_default_pipeline(
-      graph, {.forwarded_writes = block_memory_latency, .multiplier_width = model.parameters().multiplier_width});
-  if (const std::string violation = dataflow::find_violation(graph); !violation.empty())
+  std::vector<nlohmann::json> pass_logs;
+  for (dataflow::graph& graph : network.processes)
+    pass_logs.push_back(passes::to_json(passes::run_default_pipeline(
+        graph, {.forwarded_writes = block_memory_latency, .multiplier_width = model.parameters().multiplier_width})));
+  if (const std::string violation = dataflow::find_violation(network); !violation.empty())
     throw std::logic_error("the passes made an ill-formed graph: " + violation);
   const double pass_seconds = watch.lap();
 
-  const schedule::result schedule = find_schedule(graph, model, given, period, process.initiation_interval);
+  std::vector<schedule::result> schedules;
+  for (std::size_t i = 0; i < network.processes.size(); ++i)
+    schedules.push_back(find_schedule(network.processes[i], model, given, period, lowered[i].initiation_interval));
   const double schedule_seconds = watch.lap();
 
-  emit::report_options report_options;
-  report_options.passes = passes::to_json(pass_log);
-  report_options.axi_lite = given.axi_lite;
-  const nlohmann::json report = emit::make_report(graph, model, schedule, report_options);
-  output.write(graph.name + ".v", emit::emit_verilog(graph, model, schedule, {.axi_lite = given.axi_lite}));
-  output.write(graph.name + ".graph", dataflow::print(graph));
+  const std::string& name = network.name;
+  const nlohmann::json report = emit::make_network_report(network, model, schedules, pass_logs, given.axi_lite);
+  output.write(name + ".v", emit::emit_network(network, model, schedules, {.axi_lite = given.axi_lite}));
+  output.write(name + ".graph",
+               dataflow::is_single(network) ? dataflow::print(network.processes.front()) : dataflow::print(network));
   output.write("report.json", report.dump(2) + "\n");
-  output.write("report.txt", emit::report_text(report));
-  output.write("report.html", emit::report_page(report, read_sources(graph)));
+  output.write("report.txt", emit::network_report_text(report));
+  output.write("report.html", emit::report_page(report, read_sources(network)));
   if (given.axi_lite) {
-    const emit::register_map map = emit::make_register_map(graph);
+    const emit::register_map map = emit::make_register_map(network.processes.front());
     output.write(map.module() + ".h", emit::to_c_header(map));
     output.write(map.module() + ".json", emit::to_json(map).dump(2) + "\n");
     output.write(map.module() + ".md", emit::to_markdown(map));
   }
   if (!given.depfile.empty())
     output.write_file(given.depfile,
-                      dependency_file((fs::path(given.output) / (graph.name + ".v")).string(), source.dependencies));
+                      dependency_file((fs::path(given.output) / (name + ".v")).string(), source.dependencies));
   output.commit();
-  if (!given.quiet)
-    std::cout << fmt::format(
-        "{}: {} operations, {} stages at {:.2f} ns, one iteration every {} clock{}\n"
-        "  C++ to graph {:.1f} s, passes {:.1f} s, schedule {:.1f} s, Verilog and reports {:.1f} s\n"
-        "  {}/{}.v, {}.graph, report.json, report.txt, report.html{}\n",
-        graph.name, graph.nodes.size(), schedule.depth, schedule.period, schedule.initiation_interval,
-        schedule.initiation_interval == 1 ? "" : "s", frontend_seconds, pass_seconds, schedule_seconds, watch.lap(),
-        given.output, graph.name, graph.name,
-        given.axi_lite ? fmt::format(", {0}_registers.h, {0}_registers.json, {0}_registers.md", graph.name) : "");
+  if (given.quiet) return;
+  for (std::size_t i = 0; i < schedules.size(); ++i)
+    std::cout << fmt::format("{}: {} operations, {} stages at {:.2f} ns, one iteration every {} clock{}\n",
+                             network.processes[i].name, network.processes[i].nodes.size(), schedules[i].depth,
+                             schedules[i].period, schedules[i].initiation_interval,
+                             schedules[i].initiation_interval == 1 ? "" : "s");
+  std::cout << fmt::format(
+      "  C++ to graph {:.1f} s, passes {:.1f} s, schedule {:.1f} s, Verilog and reports {:.1f} s\n"
+      "  {}/{}.v, {}.graph, report.json, report.txt, report.html{}\n",
+      frontend_seconds, pass_seconds, schedule_seconds, watch.lap(), given.output, name, name,
+      given.axi_lite ? fmt::format(", {0}_registers.h, {0}_registers.json, {0}_registers.md", name) : "");
 }
 
 }  // namespace

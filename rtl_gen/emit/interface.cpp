@@ -1,8 +1,12 @@
 #include "emit/interface.hpp"
 
+#include <fmt/format.h>
+
+#include <iterator>
 #include <string_view>
 
 #include "emit/register_map.hpp"
+#include "emit/text.hpp"
 
 namespace epiline::emit {
 
@@ -60,6 +64,26 @@ std::vector<rtl_port> interface_of(const dataflow::graph& g, bool axi_lite) {
   };
   ports.insert(ports.begin(), channels.begin(), channels.end());
   return ports;
+}
+
+std::string module_head(const dataflow::graph& g, const std::vector<rtl_port>& ports) {
+  std::string text = fmt::format("module {} (\n  input  wire clk,\n  input  wire rst", g.name);
+  for (const rtl_port& port : ports) {
+    text += ",\n";
+    const auto put = [&](bool input, unsigned width, const std::string& name) {
+      fmt::format_to(std::back_inserter(text), "  {} wire {}{}", input ? "input " : "output", range_of(width), name);
+    };
+    if (const std::string place = place_text(g, port.where); port.where.line != 0)
+      text += (place.empty() ? "" : "  // " + place) + "\n";
+    for (const rtl_field& f : port.fields) {
+      put(port.input, f.width, f.rtl);
+      text += ",\n";
+    }
+    put(port.input, 1, port.valid);
+    text += ",\n";
+    put(!port.input, 1, port.ready);
+  }
+  return text + "\n);\n";
 }
 
 std::string signal_name(const dataflow::port& port, std::string_view signal) {

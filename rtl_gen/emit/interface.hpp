@@ -35,6 +35,9 @@ struct rtl_port {
 /// Throws std::invalid_argument when `axi_lite` is wanted and the graph has no call port.
 [[nodiscard]] std::vector<rtl_port> interface_of(const dataflow::graph& g, bool axi_lite);
 
+/// The module's first lines, to the end of its port list.
+[[nodiscard]] std::string module_head(const dataflow::graph& g, const std::vector<rtl_port>& ports);
+
 /// The RTL name of a port's signal: "s_axis_left_tdata", or the scalar's own name for a call port.
 [[nodiscard]] std::string signal_name(const dataflow::port& port, std::string_view signal);
 

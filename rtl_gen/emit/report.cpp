@@ -28,6 +28,8 @@ namespace {
 constexpr std::size_t most_lines = 40;  // of the list of costly source lines
 constexpr int schema_version = 2;       // docs/report.schema.json says what it means
 
+}  // namespace
+
 json describe_interface(const graph& g, bool axi_lite) {
   json ports = json::array();
   for (const rtl_port& port : interface_of(g, axi_lite)) {
@@ -54,8 +56,6 @@ json describe_interface(const graph& g, bool axi_lite) {
   if (axi_lite) interface["registers"] = to_json(make_register_map(g));
   return interface;
 }
-
-}  // namespace
 
 json make_report(const graph& g, const schedule::delay_model& model, const schedule::result& s,
                  const report_options& options) {

@@ -21,6 +21,9 @@ struct report_options {
 [[nodiscard]] nlohmann::json make_report(const dataflow::graph& g, const schedule::delay_model& model,
                                          const schedule::result& s, const report_options& options = {});
 
+/// Key "interface" of the report: the ports of the module.
+[[nodiscard]] nlohmann::json describe_interface(const dataflow::graph& g, bool axi_lite);
+
 /// The same for people. `report` must come from make_report().
 [[nodiscard]] std::string report_text(const nlohmann::json& report);
 

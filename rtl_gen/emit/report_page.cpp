@@ -79,9 +79,21 @@ std::string escaped(std::string_view text) {
 std::uint64_t whole(const json& j) { return j.get<std::uint64_t>(); }
 std::string text_of(const json& j) { return escaped(j.get<std::string>()); }
 
+std::string head_of(const std::string& title) {
+  return fmt::format(
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{} - epiline-hls</title>\n"
+      "<style>{}</style>\n</head>\n<body>\n<h1>{}</h1>\n",
+      title, style, title);
+}
+
+constexpr const char* foot = "</body>\n</html>\n";
+
 class page {
  public:
-  page(const json& report, const std::map<std::string, std::string>& sources) : report_(report), sources_(sources) {
+  /// `prefix` makes the lines' anchors differ from those of other pipelines on the same page.
+  page(const json& report, const std::map<std::string, std::string>& sources, std::string prefix = "")
+      : report_(report), sources_(sources), prefix_(std::move(prefix)) {
     for (const json& line : report["lines"]) {
       by_place_[place_of(line["where"])] = &line;
       number_of(line["where"]["file"]);
@@ -90,12 +102,8 @@ class page {
     chain_.erase(place());
   }
 
+  /// What stands below the heading.
   std::string write() {
-    const std::string title = text_of(report_["top"]);
-    put("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{} - epiline-hls</title>\n"
-        "<style>{}</style>\n</head>\n<body>\n<h1>{}</h1>\n",
-        title, style, title);
     write_summary();
     write_limit();
     write_sources();
@@ -103,7 +111,6 @@ class page {
     write_variables();
     write_memories();
     write_ports();
-    put("</body>\n</html>\n");
     return std::move(out_);
   }
 
@@ -129,7 +136,7 @@ class page {
     const auto [file, line] = place_of(where);
     const std::string name = file.substr(file.rfind('/') + 1);
     if (sources_.count(file) == 0 || files_.count(file) == 0) return escaped(fmt::format("{}:{}", name, line));
-    return fmt::format("<a href=\"#f{}l{}\">{}:{}</a>", files_.at(file), line, escaped(name), line);
+    return fmt::format("<a href=\"#{}f{}l{}\">{}:{}</a>", prefix_, files_.at(file), line, escaped(name), line);
   }
 
   void begin_table(std::initializer_list<const char*> heads) {
@@ -227,7 +234,7 @@ class page {
 
   void write_line(const std::string& file, unsigned number, std::string_view code, double costliest) {
     const auto found = by_place_.find({file, number});
-    put("<tr id=\"f{}l{}\"{}><td class=\"n\">{}</td>", files_.at(file), number,
+    put("<tr id=\"{}f{}l{}\"{}><td class=\"n\">{}</td>", prefix_, files_.at(file), number,
         chain_.count({file, number}) != 0 ? " class=\"chain\"" : "", number);
     if (found == by_place_.end()) {
       put("<td></td><td></td><td></td>");
@@ -324,16 +331,54 @@ class page {
 
   const json& report_;
   const std::map<std::string, std::string>& sources_;
+  std::string prefix_;
   std::map<place, const json*> by_place_;
   std::set<place> chain_;
   std::map<std::string, std::size_t> files_;
   std::string out_;
 };
 
+std::string place_text(const json& where) {
+  if (where.is_null()) return "";
+  const std::string file = where["file"];
+  return escaped(fmt::format("{}:{}", file.substr(file.rfind('/') + 1), where["line"].get<unsigned>()));
+}
+
+/// Of a top made of processes: its streams, and every process as a page of its own to open.
+std::string processes_page(const json& report, const std::map<std::string, std::string>& sources) {
+  std::string text = head_of(text_of(report["top"]));
+  const auto put = [&]<class... Arguments>(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+    fmt::format_to(std::back_inserter(text), format, std::forward<Arguments>(arguments)...);
+  };
+  put("<p class=\"soft\">{}, {} processes side by side, joined by {} streams</p>\n<div class=\"tiles\">",
+      text_of(report["target"]), report["processes"].size(), report["streams"].size());
+  put("<div><b>{:.0f}</b>LUT4 (estimated)</div><div><b>{}</b>flip-flops</div><div><b>{}</b>block RAMs</div></div>\n",
+      report["estimate"]["lut4"].get<double>(), whole(report["registers"]["total_bits"]),
+      whole(report["estimate"]["block_rams"]));
+  put("<h2>Streams between processes</h2>\n<div class=\"wide\"><table>\n<tr><th>stream</th><th>from</th><th>to</th>"
+      "<th class=\"n\">depth</th><th class=\"n\">bits</th><th>kept in</th><th class=\"n\">LUT4</th>"
+      "<th class=\"n\">flip-flops</th><th class=\"n\">block RAMs</th><th>source</th></tr>\n");
+  for (const json& stream : report["streams"])
+    put("<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td>{}</td>"
+        "<td class=\"n\">{:.0f}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td>{}</td></tr>\n",
+        text_of(stream["name"]), text_of(stream["writer"]), text_of(stream["reader"]), whole(stream["depth"]),
+        whole(stream["width"]), text_of(stream["storage"]), stream["lut4"].get<double>(), whole(stream["flip_flops"]),
+        whole(stream["block_rams"]), place_text(stream["where"]));
+  put("</table></div>\n<h2>Processes</h2>\n");
+  for (std::size_t i = 0; i < report["processes"].size(); ++i) {
+    const json& process = report["processes"][i];
+    put("<details{}><summary>{} <span class=\"soft\">{}</span></summary>\n{}</details>\n", i == 0 ? " open" : "",
+        text_of(process["report"]["top"]), place_text(process["called"]),
+        page(process["report"], sources, fmt::format("p{}", i)).write());
+  }
+  return text + foot;
+}
+
 }  // namespace
 
 std::string report_page(const json& report, const std::map<std::string, std::string>& sources) {
-  return page(report, sources).write();
+  if (report.contains("processes")) return processes_page(report, sources);
+  return head_of(text_of(report["top"])) + page(report, sources).write() + foot;
 }
 
 }  // namespace epiline::emit

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "emit/interface.hpp"
+#include "emit/names.hpp"
 #include "emit/register_map.hpp"
 #include "emit/text.hpp"
 
@@ -35,41 +36,6 @@ namespace {
 // An expression stays inside its user's line while it is this short.
 constexpr std::size_t longest_inlined = 60;
 constexpr std::size_t longest_concat_line = 100;
-
-constexpr std::string_view keywords[] = {
-    "always", "and", "assign", "automatic", "begin", "buf", "bufif0", "bufif1", "case", "casex", "casez", "cell",
-    "cmos", "config", "deassign", "default", "defparam", "design", "disable", "edge", "else", "end", "endcase",
-    "endconfig", "endfunction", "endgenerate", "endmodule", "endprimitive", "endspecify", "endtable", "endtask",
-    "event", "for", "force", "forever", "fork", "function", "generate", "genvar", "highz0", "highz1", "if", "ifnone",
-    "incdir", "include", "initial", "inout", "input", "instance", "integer", "join", "large", "liblist", "library",
-    "localparam", "macromodule", "medium", "module", "nand", "negedge", "nmos", "nor", "noshowcancelled", "not",
-    "notif0", "notif1", "or", "output", "parameter", "pmos", "posedge", "primitive", "pull0", "pull1", "pulldown",
-    "pullup", "pulsestyle_onevent", "pulsestyle_ondetect", "rcmos", "real", "realtime", "reg", "release", "repeat",
-    "rnmos", "rpmos", "rtran", "rtranif0", "rtranif1", "scalared", "showcancelled", "signed", "small", "specify",
-    "specparam", "strong0", "strong1", "supply0", "supply1", "table", "task", "time", "tran", "tranif0", "tranif1",
-    "tri", "tri0", "tri1", "triand", "trior", "trireg", "unsigned", "use", "uwire", "vectored", "wait", "wand", "weak0",
-    "weak1", "while", "wire", "wor", "xnor", "xor",
-    // SystemVerilog's most likely names: tools may read .v files as SystemVerilog.
-    "bit", "byte", "char", "class", "const", "do", "enum", "final", "int", "interface", "local", "logic", "longint",
-    "new", "null", "package", "priority", "program", "property", "protected", "ref", "return", "sequence", "shortint",
-    "shortreal", "static", "string", "struct", "super", "tagged", "this", "type", "typedef", "union", "unique", "var",
-    "virtual", "void", "with", "within", "break", "continue", "checker", "clocking", "context", "cover", "cross",
-    "dist", "expect", "export", "extends", "extern", "first_match", "foreach", "global", "iff", "import", "inside",
-    "join_any", "join_none", "let", "matches", "modport", "packed", "pure", "rand", "randc", "randcase", "solve",
-    "strong", "weak", "throughout", "timeprecision", "timeunit", "wildcard", "restrict", "reject_on", "accept_on",
-    "assert", "assume", "before", "bind", "bins", "binsof", "covergroup", "coverpoint", "endclass", "implements",
-    "implies", "intersect", "nettype", "nexttime", "soft", "untyped", "until", "chandle", "alias", "always_comb",
-    "always_ff", "always_latch", "eventually", "forkjoin", "unique0", "s_always"};
-
-bool is_keyword(std::string_view name) {
-  return std::find(std::begin(keywords), std::end(keywords), name) != std::end(keywords);
-}
-
-bool is_identifier(std::string_view name) {
-  if (name.empty() || (!std::isalpha(static_cast<unsigned char>(name[0])) && name[0] != '_')) return false;
-  return std::all_of(name.begin(), name.end(),
-                     [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; });
-}
 
 std::string literal(const llvm::APInt& value) {
   const unsigned width = value.getBitWidth();
@@ -185,7 +151,6 @@ class writer {
   }
   void title(std::string_view text) { line("\n  // ---- {} ----", text); }
   void write_heading();
-  void write_interface();
   void write_control_declarations();
   void write_inputs();
   void write_sampled_arguments(const std::string& name);
@@ -279,31 +244,7 @@ std::string writer::fresh_port(const std::string& wanted) {
 }
 
 void writer::reserve_interface() {
-  std::vector<std::string> stems;
-  const auto reserve = [&](const std::string& name, std::string_view what, dataflow::source_location where) {
-    const std::string place = where.line == 0 ? "" : schedule::describe(g_, where) + ": error: ";
-    if (!is_identifier(name) || is_keyword(name)) {
-      throw std::invalid_argument(
-          fmt::format("{}{} '{}' cannot have that name in Verilog: rename it", place, what, name));
-    }
-    if (!taken_.insert(name).second) {
-      throw std::invalid_argument(
-          fmt::format("{}{} '{}' has the name of another signal of the module: rename it", place, what, name));
-    }
-    // A scalar named x_s3 keeps other values from being named x, whose copy in stage 3 would be called the same.
-    const std::size_t mark = name.find_last_not_of("0123456789");
-    if (mark != std::string::npos && mark > 1 && name.compare(mark - 1, 2, "_s") == 0) {
-      stems.push_back(name.substr(0, mark - 1));
-    }
-  };
-  reserve(g_.name, "top", {});
-  reserve("clk", "signal", {});
-  reserve("rst", "signal", {});
-  for (const rtl_port& port : interface_) {
-    for (const rtl_field& f : port.fields) reserve(f.rtl, "port signal", port.where);
-    reserve(port.valid, "port signal", port.where);
-    reserve(port.ready, "port signal", port.where);
-  }
+  const std::vector<std::string> stems = reserve_signals(g_, interface_, taken_);
   if (options_.axi_lite) {
     for (const argument_register& argument : make_register_map(g_).arguments) {
       if (is_identifier(argument.name)) continue;
@@ -629,27 +570,6 @@ void writer::write_heading() {
   line("/* verilator lint_off CMPCONST */");
   line("`default_nettype none");
   line("");
-}
-
-void writer::write_interface() {
-  line("module {} (", g_.name);
-  line("  input  wire clk,");
-  out_ += "  input  wire rst";
-  for (const rtl_port& port : interface_) {
-    out_ += ",\n";
-    const auto put = [&](bool input, unsigned width, const std::string& name) {
-      fmt::format_to(std::back_inserter(out_), "  {} wire {}{}", input ? "input " : "output", range_of(width), name);
-    };
-    if (port.where.line != 0) out_ += comment(port.where) + "\n";
-    for (const rtl_field& f : port.fields) {
-      put(port.input, f.width, f.rtl);
-      out_ += ",\n";
-    }
-    put(port.input, 1, port.valid);
-    out_ += ",\n";
-    put(!port.input, 1, port.ready);
-  }
-  out_ += "\n);\n";
 }
 
 void writer::write_control_declarations() {
@@ -1346,7 +1266,7 @@ std::string writer::write() {
     updates_at_[s_.register_update[r]].push_back(r);
   }
   write_heading();
-  write_interface();
+  out_ += module_head(g_, interface_);
   write_control_declarations();
   for (const output_fifo& f : plan_.fifos) {
     const unsigned counter = bits_for(f.depth - 1) + 1;

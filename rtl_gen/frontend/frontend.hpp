@@ -3,5 +3,7 @@
 
 #include "frontend/build_graph.hpp"
 #include "frontend/compile.hpp"
+#include "frontend/join_processes.hpp"
 #include "frontend/lower.hpp"
+#include "frontend/processes.hpp"
 #include "frontend/source.hpp"

@@ -99,8 +99,14 @@ class unroller {
     const unsigned most = exact != 0 ? exact : evolution_.getSmallConstantMaxTripCount(&loop);
     const bool marked = marks_.unrolled.count(header) != 0;
     bool accesses = false;
+    bool calls = false;  // processes, which access streams
     for (const llvm::BasicBlock* block : loop.blocks())
-      for (const llvm::Instruction& instruction : *block) accesses = accesses || is_port_access(instruction);
+      for (const llvm::Instruction& instruction : *block) {
+        accesses = accesses || is_port_access(instruction);
+        const auto* call = llvm::dyn_cast<llvm::CallInst>(&instruction);
+        calls = calls || (call != nullptr && call->getCalledFunction() != nullptr &&
+                          !call->getCalledFunction()->isDeclaration());
+      }
     if (marked && most == 0)
       refuse(place_of(loop),
              "#pragma HLS UNROLL on a loop whose number of trips is not known: bound it by a constant and leave early "
@@ -110,7 +116,7 @@ class unroller {
              fmt::format("#pragma HLS UNROLL on a loop of up to {} trips: {} are the most: bound it by a smaller "
                          "constant, or let it stay a loop",
                          most, longest_marked_unroll));
-    if (!accesses && loop.hasNoExitBlocks())
+    if (!accesses && !calls && loop.hasNoExitBlocks())
       refuse(place_of(loop),
              "endless loop without stream access: it can never give a result; bound it or access a stream in it");
     bool unroll = marked;

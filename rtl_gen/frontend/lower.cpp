@@ -6,15 +6,8 @@
 #include <llvm/IR/InstIterator.h>
 #include <llvm/IR/IntrinsicInst.h>
 #include <llvm/IR/Verifier.h>
-#include <llvm/Passes/PassBuilder.h>
-#include <llvm/Transforms/IPO/AlwaysInliner.h>
-#include <llvm/Transforms/InstCombine/InstCombine.h>
-#include <llvm/Transforms/Scalar/ADCE.h>
-#include <llvm/Transforms/Scalar/DCE.h>
-#include <llvm/Transforms/Scalar/EarlyCSE.h>
 #include <llvm/Transforms/Scalar/InstSimplifyPass.h>
 #include <llvm/Transforms/Scalar/SCCP.h>
-#include <llvm/Transforms/Scalar/SROA.h>
 #include <llvm/Transforms/Scalar/SimplifyCFG.h>
 #include <llvm/Transforms/Utils/LowerSwitch.h>
 
@@ -25,6 +18,7 @@
 #include "frontend/aggregates.hpp"
 #include "frontend/checks.hpp"
 #include "frontend/copies.hpp"
+#include "frontend/function_passes.hpp"
 #include "frontend/loops.hpp"
 #include "frontend/payload.hpp"
 #include "frontend/pointer_choices.hpp"
@@ -35,68 +29,14 @@ namespace epiline::frontend {
 
 namespace {
 
-struct analysis_managers {
-  llvm::LoopAnalysisManager loop;
-  llvm::FunctionAnalysisManager function;
-  llvm::CGSCCAnalysisManager cgscc;
-  llvm::ModuleAnalysisManager module;
-
-  analysis_managers() {
-    llvm::PassBuilder builder;
-    builder.registerModuleAnalyses(module);
-    builder.registerCGSCCAnalyses(cgscc);
-    builder.registerFunctionAnalyses(function);
-    builder.registerLoopAnalyses(loop);
-    builder.crossRegisterProxies(loop, function, cgscc, module);
-  }
-};
-
 /// Stands for what nobody has written; the parameter's index follows.
 constexpr const char* unwritten_prefix = "epiline.unwritten.";
-
-struct top_description {
-  source_place place;
-  std::map<unsigned, std::string> parameters;  // by index from 0
-};
-
-/// The top's place and parameter names, out of its debug information.
-top_description describe_top(const llvm::Module& module, const std::string& top) {
-  const std::size_t scope = top.rfind("::");
-  const std::string base = scope == std::string::npos ? top : top.substr(scope + 2);
-  top_description result;
-  for (const llvm::Function& function : module) {
-    const llvm::DISubprogram* program = function.getSubprogram();
-    if (function.isDeclaration() || program == nullptr || program->getName() != base) continue;
-    result.place = place_of(function);
-    for (const llvm::Instruction& instruction : llvm::instructions(function))
-      for (const llvm::DbgVariableRecord& record : llvm::filterDbgVars(instruction.getDbgRecordRange()))
-        if (const unsigned argument = record.getVariable()->getArg();
-            argument != 0 && record.getVariable()->getScope()->getSubprogram() == program)
-          result.parameters.try_emplace(argument - 1, record.getVariable()->getName().str());
-  }
-  return result;
-}
-
-/// Inlines every call in the roots, and in nothing else that matters.
-void inline_everything(llvm::Module& module, const std::vector<llvm::Function*>& roots, analysis_managers& managers) {
-  for (llvm::Function& function : module) {
-    if (function.isDeclaration()) continue;
-    function.removeFnAttr(llvm::Attribute::NoInline);
-    function.removeFnAttr(llvm::Attribute::OptimizeNone);
-    if (std::find(roots.begin(), roots.end(), &function) != roots.end()) continue;
-    function.addFnAttr(llvm::Attribute::AlwaysInline);
-    if (function.hasComdat()) function.setComdat(nullptr);
-    function.setLinkage(llvm::GlobalValue::InternalLinkage);
-  }
-  llvm::ModulePassManager passes;
-  passes.addPass(llvm::AlwaysInlinerPass(false));
-  passes.run(module, managers.module);
-}
 
 /// Replaces the stream, argument and result calls by port accesses.
 class port_lowering {
  public:
-  port_lowering(lowered_process& result, const top_description& top) : result_(result), top_(top) {}
+  port_lowering(lowered_process& result, const process_source& source)
+      : result_(result), top_(source.top), source_(source) {}
 
   void run() {
     std::vector<llvm::CallInst*> calls;
@@ -105,10 +45,13 @@ class port_lowering {
         if (call->getCalledFunction() != nullptr && call->getCalledFunction()->getName().starts_with("__epiline_"))
           calls.push_back(call);
     for (llvm::CallInst* call : calls) bind_ports(*call);
-    for (llvm::CallInst* call : calls) lower_arguments(*call);
+    for (llvm::CallInst* call : calls) find_arguments(*call);
+    make_call_port();
+    for (llvm::CallInst* call : calls) lower_result(*call);
     for (llvm::CallInst* call : calls) lower_access(*call);
     finish_call_token();
     for (llvm::CallInst* call : finished_) call->eraseFromParent();
+    if (source_.is_part) return drop_unused_ports();
     for (const dataflow::port& port : result_.ports)
       if (port.width == 0)
         refuse(top_.place, fmt::format("the stream '{}' is never read or written: remove the parameter", port.name));
@@ -158,10 +101,39 @@ class port_lowering {
 
   void bind_ports(llvm::CallInst& call) {
     if (name_of(call) == "__epiline_unsupported_parameter") refuse_parameter(call);
-    if (name_of(call) != "__epiline_port") return;
-    const unsigned port = add_port(parameter_name(index_of(call)), dataflow::port_kind::stream, true);
-    ports_of_objects_[call.getArgOperand(1)] = port;
+    const bool internal = name_of(call) == internal_stream_name;
+    if (name_of(call) != "__epiline_port" && !internal) return;
+    const unsigned port = add_port(internal ? source_.streams[index_of(call)] : parameter_name(index_of(call)),
+                                   dataflow::port_kind::stream, true);
+    ports_of_objects_[object_behind(call.getArgOperand(1))] = port;
     finished_.push_back(&call);
+  }
+
+  /// The object that a pointer to a stream leads to, and which one of its streams: one has the size of a byte.
+  [[nodiscard]] std::pair<const llvm::Value*, std::uint64_t> object_behind(const llvm::Value* pointer) const {
+    llvm::APInt offset(64, 0);
+    const llvm::Value* const object = pointer->stripAndAccumulateConstantOffsets(layout(), offset, true);
+    return {object, offset.getZExtValue()};
+  }
+
+  /// A process has a port for each stream of the top that it uses.
+  void drop_unused_ports() {
+    std::vector<dataflow::port> used;
+    std::map<unsigned, unsigned> numbers;
+    for (unsigned port = 0; port < result_.ports.size(); ++port) {
+      if (result_.ports[port].width == 0) continue;
+      numbers[port] = static_cast<unsigned>(used.size());
+      used.push_back(result_.ports[port]);
+    }
+    for (llvm::Instruction& instruction : llvm::instructions(*result_.function))
+      if (const access kind = access_of(instruction); kind == access::read || kind == access::write)
+        llvm::cast<llvm::CallInst>(instruction)
+            .setArgOperand(0, llvm::ConstantInt::get(llvm::Type::getInt32Ty(instruction.getContext()),
+                                                     numbers.at(object_of(instruction))));
+    result_.ports = std::move(used);
+    if (std::none_of(result_.ports.begin(), result_.ports.end(),
+                     [](const dataflow::port& port) { return port.kind != dataflow::port_kind::call; }))
+      refuse(source_.place, "DATAFLOW: this process neither reads nor writes a stream: remove the call");
   }
 
   static llvm::Type* payload_type(const llvm::CallInst& call, unsigned operand) {
@@ -181,29 +153,57 @@ class port_lowering {
                                 dataflow::max_width));
   }
 
-  /// All scalars by value arrive as one token, taken where the first of them is.
-  void lower_arguments(llvm::CallInst& call) {
-    if (name_of(call) == "__epiline_argument") {
-      if (first_argument_ == nullptr) {
-        first_argument_ = &call;
-        call_port_ = add_port("call", dataflow::port_kind::call, true);
-      }
-      llvm::Type* const type = payload_type(call, 2);
-      const std::string name = parameter_name(index_of(call));
-      const std::vector<leaf> leaves = payload_leaves(type, top_.place);
-      arguments_.push_back({&call, type, leaves, result_.ports[call_port_].width});
-      const bool is_signed = leaves.size() == 1 && leaves[0].is_signed;
-      result_.ports[call_port_].fields.push_back(
-          {name, name, width_of(leaves), result_.ports[call_port_].width, is_signed});
-      result_.ports[call_port_].width += width_of(leaves);
-      check_width(result_.ports[call_port_].width, top_.place);
-      finished_.push_back(&call);
-    } else if (name_of(call) == "__epiline_unwritten") {
-      leave_unwritten(call);
-    } else if (name_of(call) == "__epiline_result") {
-      const unsigned port = add_port(parameter_name(index_of(call)), dataflow::port_kind::result, false);
-      write(call, port, call.getArgOperand(1), payload_type(call, 2));
+  void find_arguments(llvm::CallInst& call) {
+    if (name_of(call) != "__epiline_argument") return;
+    if (first_argument_ == nullptr) first_argument_ = &call;
+    llvm::Type* const type = payload_type(call, 2);
+    const std::string name = parameter_name(index_of(call));
+    std::vector<leaf> leaves = payload_leaves(type, top_.place);
+    const unsigned width = width_of(leaves);
+    const bool is_signed = leaves.size() == 1 && leaves[0].is_signed;
+    arguments_.push_back({&call, type, std::move(leaves), {name, name, width, 0, is_signed}});
+    finished_.push_back(&call);
+  }
+
+  static void append_field(dataflow::port& port, dataflow::field& field) {
+    field.offset = port.width;
+    port.fields.push_back(field);
+    port.width += field.width;
+  }
+
+  /// All scalars by value arrive as one token. A process takes those of them that it uses or, to know that there is a
+  /// call, the narrowest.
+  void make_call_port() {
+    if (arguments_.empty()) return;
+    call_port_ = add_port("call", dataflow::port_kind::call, true);
+    result_.whole_call = result_.ports[call_port_];
+    for (argument& one : arguments_) append_field(result_.whole_call, one.field);
+    check_width(result_.whole_call.width, top_.place);
+    if (source_.is_part) {
+      const auto narrowest = std::min_element(arguments_.begin(), arguments_.end(), [](const auto& a, const auto& b) {
+        return a.field.width < b.field.width;
+      });
+      const argument start = *narrowest;
+      std::erase_if(arguments_, [](const argument& one) { return !is_read(*one.call->getArgOperand(1), *one.call); });
+      if (arguments_.empty()) arguments_.push_back(start);
     }
+    for (argument& one : arguments_) append_field(result_.ports[call_port_], one.field);
+  }
+
+  /// Whether anything but `filler` looks at a variable.
+  static bool is_read(const llvm::Value& pointer, const llvm::CallInst& filler) {
+    return std::any_of(pointer.user_begin(), pointer.user_end(), [&](const llvm::User* user) {
+      if (llvm::isa<llvm::GetElementPtrInst>(user)) return is_read(*user, filler);
+      const auto* intrinsic = llvm::dyn_cast<llvm::IntrinsicInst>(user);
+      return user != &filler && (intrinsic == nullptr || !intrinsic->isLifetimeStartOrEnd());
+    });
+  }
+
+  void lower_result(llvm::CallInst& call) {
+    if (name_of(call) == "__epiline_unwritten") leave_unwritten(call);
+    if (name_of(call) != "__epiline_result") return;
+    const unsigned port = add_port(parameter_name(index_of(call)), dataflow::port_kind::result, false);
+    write(call, port, call.getArgOperand(1), payload_type(call, 2));
   }
 
   /// What a result holds before the top writes it becomes a value of unknown origin, which find_unwritten() looks for
@@ -231,19 +231,22 @@ class port_lowering {
     for (const argument& one : arguments_) {
       builder.SetInsertPoint(one.call);
       llvm::Value* const bits =
-          builder.CreateTrunc(builder.CreateLShr(token, one.offset), builder.getIntNTy(width_of(one.leaves)));
+          builder.CreateTrunc(builder.CreateLShr(token, one.field.offset), builder.getIntNTy(width_of(one.leaves)));
       unpack_token(builder, bits, one.call->getArgOperand(1), one.type, one.leaves);
     }
   }
 
   unsigned port_of(const llvm::CallInst& call) const {
-    const auto found = ports_of_objects_.find(call.getArgOperand(0)->stripPointerCasts());
+    const auto object = object_behind(call.getArgOperand(0));
+    const auto found = ports_of_objects_.find(object);
     if (found == ports_of_objects_.end()) {
-      if (llvm::isa<llvm::PHINode>(call.getArgOperand(0)) || llvm::isa<llvm::SelectInst>(call.getArgOperand(0)))
+      if (llvm::isa<llvm::PHINode, llvm::SelectInst, llvm::GetElementPtrInst>(object.first))
         refuse(place_of(call), "a stream is chosen at run time: access each stream in a branch of its own");
       refuse(place_of(call),
-             "an internal hls::stream: only the top's stream parameters become hardware: use variables between kernels "
-             "of one loop");
+             source_.is_part
+                 ? "an hls::stream inside of a process: declare it in the function with DATAFLOW"
+                 : "an internal hls::stream joins functions with #pragma HLS DATAFLOW in the top only: without it, use "
+                   "variables between kernels of one loop");
     }
     return found->second;
   }
@@ -292,12 +295,13 @@ class port_lowering {
     llvm::CallInst* call;
     llvm::Type* type;
     std::vector<leaf> leaves;
-    unsigned offset;
+    dataflow::field field;
   };
 
   lowered_process& result_;
   const top_description& top_;
-  std::map<const llvm::Value*, unsigned> ports_of_objects_;
+  const process_source& source_;
+  std::map<std::pair<const llvm::Value*, std::uint64_t>, unsigned> ports_of_objects_;  // by object and its element
   std::vector<llvm::CallInst*> finished_;
   std::vector<argument> arguments_;
   llvm::CallInst* first_argument_ = nullptr;
@@ -328,42 +332,6 @@ void cut_after_noreturn(llvm::Function& process) {
   for (llvm::CallInst* call : ends) call->eraseFromParent();
 }
 
-llvm::SimplifyCFGOptions plain_control_flow() {
-  // No lookup tables, no merging of accesses across branches: both would make addresses into values.
-  return llvm::SimplifyCFGOptions()
-      .convertSwitchRangeToICmp(false)
-      .convertSwitchToLookupTable(false)
-      .needCanonicalLoops(true)
-      .hoistCommonInsts(false)
-      .sinkCommonInsts(false);
-}
-
-void run_passes(llvm::Function& function, analysis_managers& managers, llvm::FunctionPassManager passes) {
-  const llvm::PreservedAnalyses preserved = passes.run(function, managers.function);
-  managers.function.invalidate(function, preserved);
-}
-
-llvm::FunctionPassManager early_cleanup() {
-  llvm::FunctionPassManager passes;
-  passes.addPass(llvm::SROAPass(llvm::SROAOptions::ModifyCFG));
-  passes.addPass(llvm::InstSimplifyPass());
-  passes.addPass(llvm::SCCPPass());
-  passes.addPass(llvm::SimplifyCFGPass(plain_control_flow()));
-  passes.addPass(llvm::DCEPass());
-  return passes;
-}
-
-llvm::FunctionPassManager late_cleanup() {
-  llvm::FunctionPassManager passes;
-  passes.addPass(llvm::EarlyCSEPass(false));
-  passes.addPass(llvm::SCCPPass());
-  passes.addPass(llvm::InstCombinePass());
-  passes.addPass(llvm::SimplifyCFGPass(plain_control_flow()));
-  passes.addPass(llvm::EarlyCSEPass(false));
-  passes.addPass(llvm::ADCEPass());
-  return passes;
-}
-
 /// Makes straight code of a function that is to be run here.
 void prepare_start_up(llvm::Function& function, analysis_managers& managers) {
   if (function.isDeclaration()) return;
@@ -377,7 +345,7 @@ void prepare_start_up(llvm::Function& function, analysis_managers& managers) {
 
 }  // namespace
 
-lowered_process lower(compiled_source& source, const source_options& options) {
+lowered_process lower(process_source& source) {
   llvm::Module& module = *source.module;
   module.setIsNewDbgInfoFormat(true);
   lowered_process result;
@@ -385,14 +353,7 @@ lowered_process lower(compiled_source& source, const source_options& options) {
   llvm::Function& process = *result.function;
   analysis_managers managers;
 
-  const top_description top = describe_top(module, options.top);
-  result.top_place = top.place;
-  if (top.place.line == 0)
-    refuse(
-        {options.source, line_of_top(options)},
-        fmt::format("top '{}' is declared but not defined in this file: name the file that defines it", options.top));
-  if (top.parameters.empty())
-    refuse(top.place, "the top has no parameters: ports are made of them: give it hls::stream references");
+  result.top_place = source.top.place;
   check_functions(module, process);
   std::vector<llvm::Function*> roots = start_up_functions(module);
   const std::vector<llvm::Function*> start_up = roots;
@@ -412,7 +373,7 @@ lowered_process lower(compiled_source& source, const source_options& options) {
   check_operations(process);
   check_endless_loops(managers.function.getResult<llvm::LoopAnalysis>(process));
   cut_after_noreturn(process);
-  port_lowering(result, top).run();
+  port_lowering(result, source).run();
   managers.function.invalidate(process, llvm::PreservedAnalyses::none());
   run_passes(process, managers, early_cleanup());
 
@@ -438,7 +399,7 @@ lowered_process lower(compiled_source& source, const source_options& options) {
   look_ahead(process, managers.function);
   managers.function.invalidate(process, llvm::PreservedAnalyses::none());
   narrow_counters(process, managers.function);
-  find_unwritten(process, top);
+  find_unwritten(process, source.top);
   return result;
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "dataflow/graph.hpp"
-#include "frontend/compile.hpp"
+#include "frontend/processes.hpp"
 #include "frontend/source.hpp"
 
 namespace epiline::frontend {
@@ -17,6 +17,8 @@ struct lowered_process {
   llvm::Function* function = nullptr;
   source_place top_place;
   std::vector<dataflow::port> ports;
+  dataflow::port
+      whole_call;  // all scalars of the top, of which the process may use some; without fields: there are none
   std::vector<dataflow::memory> memories;
   std::vector<dataflow::table> tables;
   std::vector<source_place> memory_places;  // of memories, in order
@@ -25,6 +27,6 @@ struct lowered_process {
 };
 
 /// Lowers the module in place. Throws `refused` for what the flow does not support.
-[[nodiscard]] lowered_process lower(compiled_source& source, const source_options& options);
+[[nodiscard]] lowered_process lower(process_source& source);
 
 }  // namespace epiline::frontend

@@ -149,6 +149,17 @@ std::string replacement(const pragma_line& pragma, const source_place& place, st
     const std::string port = pragma.get("port");
     return port.empty() || llvm::StringRef(port).lower() == "return" ? "" : fmt::format("(void)sizeof({});", port);
   }
+  if (pragma.name == "dataflow") {
+    check_options(pragma, {"disable_start_propagation"}, place);
+    return "__epiline_pragma_dataflow();";
+  }
+  if (pragma.name == "stream") {
+    const std::string variable = pragma.get("variable");
+    if (variable.empty()) refuse(place, "#pragma HLS STREAM without variable=NAME: name the stream it speaks of");
+    check_options(pragma, {"variable", "depth", "type", "dim", "off"}, place);
+    return fmt::format("__epiline_pragma_stream((const void*)&({}), {});", variable,
+                       number_of(pragma, "depth", 0, 1, place));
+  }
   // What these ask for is what this flow always does (everything is inlined and pipelined, trees are balanced, loop
   // nests are flattened), or they only inform.
   static const char* const natural[] = {
@@ -156,21 +167,18 @@ std::string replacement(const pragma_line& pragma, const source_place& place, st
       "data_pack", "reset",          "top",          "protocol",           "performance"};
   for (const char* name : natural)
     if (pragma.name == name) return "";
-  static const char* const advisory[] = {"bind_storage",         "bind_op",       "resource",
-                                         "allocation",           "stream",        "loop_merge",
-                                         "function_instantiate", "array_reshape", "stable"};
+  static const char* const advisory[] = {"bind_storage",  "bind_op",    "resource",
+                                         "allocation",    "loop_merge", "function_instantiate",
+                                         "array_reshape", "stable"};
   for (const char* name : advisory)
     if (pragma.name == name) {
       notes.push_back(fmt::format("{}:{}: note: #pragma HLS {} has no effect: the flow chooses this itself", place.file,
                                   place.line, llvm::StringRef(pragma.name).upper()));
       return "";
     }
-  if (pragma.name == "dataflow")
-    refuse(place,
-           "#pragma HLS DATAFLOW: concurrent functions joined by internal streams are not supported: call "
-           "kernels one after another inside one loop, or generate one module a function");
   if (pragma.name.empty()) refuse(place, "#pragma HLS without a name: remove it");
-  static const char* const honoured[] = {"pipeline", "unroll", "dependence", "array_partition", "interface", "inline"};
+  static const char* const honoured[] = {"pipeline",  "unroll", "dependence", "array_partition",
+                                         "interface", "inline", "dataflow",   "stream"};
   for (const char* name : honoured)
     if (llvm::StringRef(name).edit_distance(pragma.name) <= 2)
       refuse(place, fmt::format("#pragma HLS {}: not known: did you mean {}?", llvm::StringRef(pragma.name).upper(),
@@ -199,7 +207,9 @@ pragma_rewrite rewrite_pragmas(const std::string& preprocessed) {
       "extern \"C\" void __epiline_pragma_pipeline(int) noexcept; extern \"C\" void __epiline_pragma_unroll() "
       "noexcept; "
       "extern \"C\" void __epiline_pragma_dependence(const void*, int) noexcept; "
-      "extern \"C\" void __epiline_pragma_partition(const void*, int) noexcept;\n";
+      "extern \"C\" void __epiline_pragma_partition(const void*, int) noexcept; "
+      "extern \"C\" void __epiline_pragma_dataflow() noexcept; "
+      "extern \"C\" void __epiline_pragma_stream(const void*, long) noexcept;\n";
   source_place place;
   llvm::StringRef rest = preprocessed;
   while (!rest.empty()) {

@@ -16,8 +16,8 @@
 #include "cosim/frame_tokens.hpp"
 #include "cosim/stream_driver.hpp"
 #include "csim/frame_beats.hpp"
-#include "dataflow/interpreter.hpp"
-#include "dataflow/text.hpp"
+#include "dataflow/network_interpreter.hpp"
+#include "dataflow/network_text.hpp"
 
 namespace epiline::cosim {
 namespace {
@@ -75,7 +75,7 @@ class model_engine : public eval::engine {
 };
 
 /// The ports of a graph as those of the module made of it.
-std::vector<model_port> ports_of(const dataflow::graph& graph) {
+std::vector<model_port> ports_of(const dataflow::network& graph) {
   std::vector<model_port> ports;
   for (const dataflow::port& port : graph.ports) {
     model_port& made = ports.emplace_back();
@@ -113,7 +113,7 @@ class graph_engine final : public eval::engine {
 
   eval::match_result match(const eval::match_request& request, const eval::run_options& options) override {
     try {
-      const dataflow::graph graph = read_graph();
+      const dataflow::network graph = read_graph();
       const stopwatch watch;
       eval::match_result result;
       result.map = interpret(graph, request, options);
@@ -129,22 +129,22 @@ class graph_engine final : public eval::engine {
   }
 
  private:
-  [[nodiscard]] dataflow::graph read_graph() const {
+  [[nodiscard]] dataflow::network read_graph() const {
     std::ifstream file(graph_file_);
     if (!file) throw eval::engine_error(fmt::format("cannot read the dataflow graph '{}'", graph_file_.string()));
     std::ostringstream text;
     text << file.rdbuf();
-    return dataflow::parse(text.str());
+    return dataflow::parse_network(text.str());
   }
 
-  [[nodiscard]] eval::disparity_map interpret(const dataflow::graph& graph, const eval::match_request& request,
+  [[nodiscard]] eval::disparity_map interpret(const dataflow::network& graph, const eval::match_request& request,
                                               const eval::run_options& options) const {
     // A chunk of iterations between two reports of progress.
     constexpr std::uint64_t chunk = 20'000;
     const frame_tokens frames(ports_of(graph), pixels_per_beat_);
     std::map<std::string, token_list> inputs;
     frames.append_frame(request, inputs);
-    dataflow::interpreter machine(graph);
+    dataflow::network_interpreter machine(graph);
     for (const auto& [name, tokens] : inputs) {
       const dataflow::port_id port = machine.find_port(name, true);
       for (std::size_t index = 0; index < tokens.size(); ++index) {

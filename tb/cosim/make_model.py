@@ -46,6 +46,7 @@ class {name}_model final : public verilated_model<V{name}> {{
     ports_ = {{
 {ports}
     }};
+    fifos_ = {{{fifos}}};
 {reset}
   }}
 
@@ -134,6 +135,7 @@ def main():
     try:
         module = content["interface"]["module"]
         ports = content["interface"]["ports"]
+        fifos = ", ".join(f'{{"{f["name"]}", "{f["instance"]}", {f["depth"]}}}' for f in content.get("streams", []))
         described, reset = [], []
         cases = {key: [] for key in ("set_token", "set_valid", "ready", "get_token", "valid", "set_ready")}
         for index, port in enumerate(ports):
@@ -158,7 +160,7 @@ def main():
         fail(f"{report}: no interface of a module: {error!r}")
 
     values = {key: switch_lines(lines) for key, lines in cases.items()}
-    values.update(name=name, module=module, report=report, ports="\n".join(described), reset="\n".join(reset))
+    values.update(name=name, module=module, report=report, ports="\n".join(described), reset="\n".join(reset), fifos=fifos)
     folder.mkdir(parents=True, exist_ok=True)
     (folder / f"{name}_model.hpp").write_text(HEADER.format(**values), encoding="utf-8")
     (folder / f"{name}_model.cpp").write_text(SOURCE.format(**values), encoding="utf-8")

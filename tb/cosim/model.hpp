@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,6 +41,19 @@ struct model_port {
   }
 };
 
+/// A FIFO between two processes inside of the module.
+struct model_fifo {
+  std::string name;  // of the stream in the source
+  std::string instance;
+  unsigned depth = 0;  // tokens it holds
+};
+
+/// What is in it: now, and the most since reset.
+struct fifo_fill {
+  unsigned now = 0;
+  unsigned peak = 0;
+};
+
 /// One instance of a module. A port is named by its index in ports().
 ///
 /// A clock period of a test is: set the inputs, settle(), look at the outputs, rising_edge(). Outputs are meaningful
@@ -53,6 +67,10 @@ class rtl_model {
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const std::vector<model_port>& ports() const { return ports_; }
+
+  /// The FIFOs between its processes, and what is in one, by its index; empty if the model does not tell.
+  [[nodiscard]] const std::vector<model_fifo>& fifos() const { return fifos_; }
+  [[nodiscard]] virtual std::optional<fifo_fill> fill([[maybe_unused]] std::size_t fifo) const { return {}; }
 
   virtual void set_reset(bool active) = 0;
   /// Clock low; combinational logic follows the inputs.
@@ -72,6 +90,7 @@ class rtl_model {
  protected:
   std::string name_;
   std::vector<model_port> ports_;
+  std::vector<model_fifo> fifos_;
 };
 
 }  // namespace epiline::cosim

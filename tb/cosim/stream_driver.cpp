@@ -112,6 +112,9 @@ class session {
       if (options_.progress && clock_ % progress_interval == 0) options_.progress(share_done());
     }
     result_.clocks = clock_;
+    for (std::size_t index = 0; index < model_.fifos().size(); ++index) {
+      if (const auto fill = model_.fill(index)) result_.peak_fills[model_.fifos()[index].name] = fill->peak;
+    }
     return std::move(result_);
   }
 
@@ -298,6 +301,16 @@ class session {
                      text.empty() ? "" : "; ", model_.ports()[to.port].name, to.record->tokens.size(),
                      to.count_known ? fmt::format(" of {}", to.expected) : "", int{model_.valid(to.port)},
                      int{to.ready});
+    }
+    for (std::size_t index = 0; index < model_.fifos().size(); ++index) {
+      const model_fifo& fifo = model_.fifos()[index];
+      const std::optional<fifo_fill> fill = model_.fill(index);
+      if (!fill) continue;
+      fmt::format_to(std::back_inserter(text), "; stream '{}' {}: {} of {} tokens, at most {}", fifo.name,
+                     fill->now == fifo.depth ? "is full"
+                     : fill->now == 0        ? "is empty"
+                                             : "is neither full nor empty",
+                     fill->now, fifo.depth, fill->peak);
     }
     return text;
   }

@@ -46,6 +46,8 @@ struct drive_result {
   std::map<std::string, port_record> outputs;
   /// Without the tokens themselves.
   std::map<std::string, port_record> inputs;
+  /// The most tokens in each FIFO between processes, by the stream's name.
+  std::map<std::string, unsigned> peak_fills;
   std::uint64_t clocks = 0;  // simulated in all
 
   /// Clocks from the first token accepted at any input to the last token at any output, both counted; 0 when nothing

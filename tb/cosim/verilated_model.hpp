@@ -3,10 +3,14 @@
 // the clocking of a Verilator model.
 
 #include <verilated.h>
+#include <verilated_syms.h>
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 
 #include "cosim/model.hpp"
 #include "cosim/token_list.hpp"
@@ -51,6 +55,20 @@ class verilated_model : public rtl_model {
   }
   ~verilated_model() override { top_->final(); }
 
+  /// The FIFO's counters are public signals; the scope they are in ends with the module's, or its instance's, name.
+  std::optional<fifo_fill> fill(std::size_t fifo) const override {
+    for (const char* instance : {"", "_instance"}) {
+      const std::string wanted = "." + name_ + instance + "." + fifos_.at(fifo).instance;
+      for (const auto& [name, scope] : *Verilated::scopeNameMap()) {
+        const VerilatedVar* fill = scope->varFind("fill");
+        const VerilatedVar* peak = scope->varFind("peak");
+        if (std::string_view(name).ends_with(wanted) && fill != nullptr && peak != nullptr)
+          return fifo_fill{number_of(*fill), number_of(*peak)};
+      }
+    }
+    return {};
+  }
+
   void set_reset(bool active) override { top_->rst = active; }
   void settle() override {
     top_->clk = 0;
@@ -59,6 +77,20 @@ class verilated_model : public rtl_model {
   void rising_edge() override {
     top_->clk = 1;
     top_->eval();
+  }
+
+ private:
+  static unsigned number_of(const VerilatedVar& variable) {
+    switch (variable.vltype()) {
+      case VLVT_UINT8:
+        return *static_cast<const CData*>(variable.datap());
+      case VLVT_UINT16:
+        return *static_cast<const SData*>(variable.datap());
+      case VLVT_UINT32:
+        return *static_cast<const IData*>(variable.datap());
+      default:
+        return 0;  // no FIFO is that deep
+    }
   }
 
  protected:

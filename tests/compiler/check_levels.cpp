@@ -17,7 +17,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "dataflow/text.hpp"
+#include "dataflow/network_text.hpp"
 #include "levels.hpp"
 
 namespace {
@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
     try {
       const std::vector<test::recorded_port> recorded = test::read_token_file(tokens / (name + ".tokens"));
       const test::graph_verdict graph =
-          test::check_graph(epiline::dataflow::parse(read_file(rtl / name / (name + ".graph"))), recorded);
+          test::check_graph(epiline::dataflow::parse_network(read_file(rtl / name / (name + ".graph"))), recorded);
       fmt::print("{}: iterations: {}\n", name, graph.iterations);
       if (!graph.difference.empty()) {
         fmt::print("{}: graph: {}\n", name, graph.difference);

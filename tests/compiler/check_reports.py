@@ -55,6 +55,10 @@ class Page(html.parser.HTMLParser):
         self.text.append(data)
 
 
+def pipelines(report):
+    return [process["report"] for process in report["processes"]] if "processes" in report else [report]
+
+
 def check_page(text, report, source):
     page = Page()
     page.feed(text)
@@ -70,10 +74,12 @@ def check_page(text, report, source):
         if line not in shown:
             problems.append(f"does not show the source line {line!r}")
             break
-    for link in report["critical_chain"]["links"]:
-        if link["where"] and link["where"]["file"].endswith(source.name):
-            if not re.search(rf'<tr id="f\d+l{link["where"]["line"]}" class="chain">', text):
-                problems.append(f"line {link['where']['line']} of the slowest chain is not marked")
+    for number, pipeline in enumerate(pipelines(report)):
+        prefix = f"p{number}" if "processes" in report else ""
+        for link in pipeline["critical_chain"]["links"]:
+            if link["where"] and link["where"]["file"].endswith(source.name):
+                if not re.search(rf'<tr id="{prefix}f\d+l{link["where"]["line"]}" class="chain">', text):
+                    problems.append(f"line {link['where']['line']} of the slowest chain is not marked")
     return problems
 
 
@@ -96,7 +102,7 @@ def parent_of(report, path):
 def check_sharpness(validator, report):
     """Which changes of a good report the schema does not notice."""
     # The operations' names and the ports' are data; the register map has a schema of its own.
-    free = re.compile(r"^(latency_clocks|stages/\d+/operations|lines/\d+/stages/\d+/operations)/|^interface/registers/")
+    free = re.compile(r"^(?:processes/\d+/report/)?(latency_clocks|stages/\d+/operations|lines/\d+/stages/\d+/operations)/|^(?:processes/\d+/report/)?interface/registers/")
     missed = []
     tried = 0
     for path in places(report):
@@ -146,12 +152,20 @@ def main():
             if problems:
                 failed += 1
                 print(f"FAILED {kernel.stem}: " + "; ".join(problems[:5]))
-            if report["memories"] and report["limiting_recurrence"]:
-                richest = report
-    missed, tried = check_sharpness(validator, richest)
-    if missed or tried < 200:
+            if "processes" in report:
+                richest["of processes"] = report
+            elif report["memories"] and report["limiting_recurrence"]:
+                richest["of one pipeline"] = report
+    tried = 0
+    for kind, report in sorted(richest.items()):
+        missed, now = check_sharpness(validator, report)
+        tried += now
+        if missed or now < 200:
+            failed += 1
+            print(f"FAILED the schema {kind} does not notice ({now} changes tried): " + "; ".join(missed[:10]))
+    if len(richest) != 2:
         failed += 1
-        print(f"FAILED the schema does not notice ({tried} changes tried): " + "; ".join(missed[:10]))
+        print(f"FAILED no report to try the schema with but {sorted(richest)}")
     print(f"{len(kernels)} kernels, {tried} changes that the schema notices" if not failed else f"{failed} failed")
     sys.exit(1 if failed or not kernels else 0)
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cosim/model.hpp"
-#include "dataflow/graph.hpp"
+#include "dataflow/network.hpp"
 #include "token_file.hpp"
 
 namespace epiline::compiler_test {
@@ -19,8 +19,8 @@ struct graph_verdict {
   bool waits = false;            // iterations wait for one another (patient registers): clocks are no fixed number
 };
 
-/// The graph, interpreted.
-[[nodiscard]] graph_verdict check_graph(const dataflow::graph& g, const std::vector<recorded_port>& recorded);
+/// The graph, or the network of graphs, interpreted.
+[[nodiscard]] graph_verdict check_graph(const dataflow::network& design, const std::vector<recorded_port>& recorded);
 
 /// The circuit, under several patterns of random pauses. `clocks`, if known (not 0), bound the run without pauses
 /// (a pipeline may take some more to fill and drain). Returns an empty string or what is wrong.

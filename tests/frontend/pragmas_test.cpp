@@ -48,6 +48,10 @@ TEST(pragmas, that_are_honoured_become_calls) {
       {"#pragma HLS DEPENDENCE variable=ram type=inter distance=shortest true",
        "__epiline_pragma_dependence((const void*)&(ram), shortest);"},
       {"#pragma HLS DEPENDENCE variable=ram intra false", ""},
+      {"#pragma HLS DATAFLOW", "__epiline_pragma_dataflow();"},
+      {"#pragma HLS dataflow disable_start_propagation", "__epiline_pragma_dataflow();"},
+      {"#pragma HLS STREAM variable = fifo depth = 16", "__epiline_pragma_stream((const void*)&(fifo), 16);"},
+      {"#pragma HLS STREAM variable=fifo type=pipo", "__epiline_pragma_stream((const void*)&(fifo), 0);"},
       {"#pragma HLS UNROLL off", ""},
       // No code comes of it; clang says when there is no such parameter.
       {"#pragma HLS INTERFACE axis port=x", "(void)sizeof(x);"},
@@ -76,7 +80,7 @@ TEST(pragmas, that_have_no_effect_leave_a_note_with_file_and_line) {
 TEST(pragmas, that_cannot_be_honoured_are_refused_with_file_and_line) {
   const std::pair<const char*, const char*> cases[] = {
       {"#pragma HLS UNROLL factor=4", "only full unrolling is supported"},
-      {"#pragma HLS DATAFLOW", "concurrent functions joined by internal streams are not supported"},
+      {"#pragma HLS STREAM depth=4", "STREAM without variable=NAME"},
       {"#pragma HLS INTERFACE m_axi port=x", "#pragma HLS INTERFACE m_axi: only stream and scalar interfaces"},
       {"#pragma HLS INTERFACE mode=bram port=x", "#pragma HLS INTERFACE bram: only stream and scalar interfaces"},
       {"#pragma HLS DEPENDENCE inter false", "DEPENDENCE without variable=NAME"},
@@ -109,11 +113,11 @@ TEST(pragmas, of_others_and_text_that_looks_like_one_stay) {
 TEST(pragmas, are_counted_by_the_markers_of_their_file) {
   const std::string refusal = refusal_of([] {
     static_cast<void>(
-        rewrite_pragmas("# 1 \"top.cpp\"\n# 1 \"kernel.hpp\" 1\na;\nb;\n#pragma HLS DATAFLOW\n# 2 \"top.cpp\" 2\n"));
+        rewrite_pragmas("# 1 \"top.cpp\"\n# 1 \"kernel.hpp\" 1\na;\nb;\n#pragma HLS NONSENSE\n# 2 \"top.cpp\" 2\n"));
   });
   EXPECT_THAT(refusal, testing::StartsWith("kernel.hpp:3: error: "));
   const std::string after = refusal_of([] {
-    static_cast<void>(rewrite_pragmas("# 1 \"kernel.hpp\" 1\na;\n# 41 \"top.cpp\" 2\nb;\n#pragma HLS DATAFLOW\n"));
+    static_cast<void>(rewrite_pragmas("# 1 \"kernel.hpp\" 1\na;\n# 41 \"top.cpp\" 2\nb;\n#pragma HLS NONSENSE\n"));
   });
   EXPECT_THAT(after, testing::StartsWith("top.cpp:42: error: "));
 }

@@ -1,0 +1,22 @@
+#pragma once
+// The report of a network: the processes' own reports, the FIFOs between them, and the sums.
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "dataflow/network.hpp"
+#include "emit/report.hpp"
+
+namespace epiline::emit {
+
+/// By docs/report.schema.json, with the keys "processes" (a report each) and "streams" (the FIFOs) instead of those
+/// that speak of one pipeline; of a single process its own report. `passes` are their statistics, one entry a process.
+[[nodiscard]] nlohmann::json make_network_report(const dataflow::network& n, const schedule::delay_model& model,
+                                                 const std::vector<schedule::result>& schedules,
+                                                 const std::vector<nlohmann::json>& passes, bool axi_lite);
+
+/// The same for people.
+[[nodiscard]] std::string network_report_text(const nlohmann::json& report);
+
+}  // namespace epiline::emit

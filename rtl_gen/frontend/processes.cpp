@@ -1,0 +1,468 @@
+#include "frontend/processes.hpp"
+
+#include <fmt/format.h>
+#include <llvm/ADT/PostOrderIterator.h>
+#include <llvm/ADT/StringExtras.h>
+#include <llvm/Analysis/LoopInfo.h>
+#include <llvm/BinaryFormat/Dwarf.h>
+#include <llvm/IR/DebugInfoMetadata.h>
+#include <llvm/IR/Dominators.h>
+#include <llvm/IR/IRBuilder.h>
+#include <llvm/IR/InstIterator.h>
+#include <llvm/IR/IntrinsicInst.h>
+#include <llvm/Transforms/Utils/Cloning.h>
+
+#include <algorithm>
+#include <set>
+
+#include "frontend/checks.hpp"
+#include "frontend/copies.hpp"
+#include "frontend/function_passes.hpp"
+#include "frontend/loops.hpp"
+#include "frontend/pointer_choices.hpp"
+#include "frontend/process_objects.hpp"
+#include "frontend/start_up.hpp"
+
+namespace epiline::frontend {
+
+namespace {
+
+constexpr const char* dataflow_pragma = "__epiline_pragma_dataflow";
+constexpr const char* stream_pragma = "__epiline_pragma_stream";
+constexpr unsigned most_depth = 1u << 20;
+
+/// The hls::stream that a type is, perhaps in arrays and, if wanted, behind a reference or pointer; null: it is none.
+const llvm::DICompositeType* stream_type(const llvm::DIType* type, bool behind_references) {
+  while (type != nullptr) {
+    if (const auto* derived = llvm::dyn_cast<llvm::DIDerivedType>(type)) {
+      const auto tag = derived->getTag();
+      const bool same = tag == llvm::dwarf::DW_TAG_typedef || tag == llvm::dwarf::DW_TAG_const_type;
+      if (!same && !behind_references) return nullptr;
+      type = derived->getBaseType();
+      continue;
+    }
+    const auto* composite = llvm::dyn_cast<llvm::DICompositeType>(type);
+    if (composite == nullptr) return nullptr;
+    if (composite->getTag() == llvm::dwarf::DW_TAG_array_type) {
+      type = composite->getBaseType();
+      continue;
+    }
+    const auto* space = llvm::dyn_cast_or_null<llvm::DINamespace>(composite->getScope());
+    const bool is_stream = space != nullptr && space->getName() == "hls" && composite->getName().starts_with("stream<");
+    return is_stream ? composite : nullptr;
+  }
+  return nullptr;
+}
+
+/// DEPTH of hls::stream<T, DEPTH>; the default without.
+unsigned depth_of(const llvm::DICompositeType& type) {
+  llvm::StringRef last = type.getName().rsplit(',').second.trim();
+  unsigned depth = 0;
+  const bool given = !last.consumeInteger(10, depth) && last.trim() == ">" && depth != 0;
+  return given ? std::min(depth, most_depth) : default_depth;
+}
+
+/// A function that can be a process: one that takes streams and is not one of the streams' own.
+bool takes_streams(const llvm::Function& function) {
+  const llvm::DISubprogram* program = function.getSubprogram();
+  if (program == nullptr || stream_type(llvm::dyn_cast_or_null<llvm::DIType>(program->getScope()), false) != nullptr)
+    return false;
+  const llvm::DITypeRefArray types = program->getType()->getTypeArray();
+  for (unsigned i = 1; i < types.size(); ++i)
+    if (types[i] != nullptr && !types[i]->isArtificial() && stream_type(types[i], true) != nullptr) return true;
+  return false;
+}
+
+llvm::Function* called_by(llvm::Instruction& instruction) {
+  auto* call = llvm::dyn_cast<llvm::CallInst>(&instruction);
+  return call == nullptr ? nullptr : call->getCalledFunction();
+}
+
+/// The calls of the function of that name, in the functions named or, without, in the whole module.
+std::vector<llvm::CallInst*> calls_of(llvm::Module& module, const char* name, const llvm::Function* in = nullptr) {
+  std::vector<llvm::CallInst*> calls;
+  const llvm::Function* function = module.getFunction(name);
+  if (function == nullptr) return calls;
+  for (llvm::Function& caller : module)
+    for (llvm::Instruction& instruction : llvm::instructions(caller))
+      if (called_by(instruction) == function && (in == nullptr || in == &caller))
+        calls.push_back(llvm::cast<llvm::CallInst>(&instruction));
+  return calls;
+}
+
+llvm::Function* find_top(llvm::Module& module, const std::string& top) {
+  const std::size_t scope = top.rfind("::");
+  const std::string base = scope == std::string::npos ? top : top.substr(scope + 2);
+  llvm::Function* found = nullptr;
+  for (llvm::Function& function : module)
+    if (const llvm::DISubprogram* program = function.getSubprogram();
+        !function.isDeclaration() && program != nullptr && program->getName() == base)
+      found = &function;
+  return found;
+}
+
+/// The top's place and parameter names, out of its debug information.
+top_description describe_top(const llvm::Function* top) {
+  top_description result;
+  if (top == nullptr) return result;
+  result.place = place_of(*top);
+  for (const llvm::Instruction& instruction : llvm::instructions(*top))
+    for (const llvm::DbgVariableRecord& record : llvm::filterDbgVars(instruction.getDbgRecordRange()))
+      if (const unsigned argument = record.getVariable()->getArg();
+          argument != 0 && record.getVariable()->getScope()->getSubprogram() == top->getSubprogram())
+        result.parameters.try_emplace(argument - 1, record.getVariable()->getName().str());
+  return result;
+}
+
+/// Everything that runs when `root` does, itself included.
+std::set<llvm::Function*> reached_from(llvm::Function& root) {
+  std::set<llvm::Function*> reached{&root};
+  std::vector<llvm::Function*> pending{&root};
+  while (!pending.empty()) {
+    llvm::Function* const function = pending.back();
+    pending.pop_back();
+    for (llvm::Instruction& instruction : llvm::instructions(*function))
+      if (llvm::Function* callee = called_by(instruction); callee != nullptr && reached.insert(callee).second)
+        pending.push_back(callee);
+  }
+  return reached;
+}
+
+class splitter {
+ public:
+  splitter(compiled_source& source, const source_options& options)
+      : source_(source), module_(*source.module), process_(*module_.getFunction(process_name)) {
+    module_.setIsNewDbgInfoFormat(true);
+    top_function_ = find_top(module_, options.top);
+    result_.top = describe_top(top_function_);
+    if (result_.top.place.line == 0)
+      refuse(
+          {options.source, line_of_top(options)},
+          fmt::format("top '{}' is declared but not defined in this file: name the file that defines it", options.top));
+    if (result_.top.parameters.empty())
+      refuse(result_.top.place, "the top has no parameters: ports are made of them: give it hls::stream references");
+    result_.name = options.top.substr(options.top.rfind(':') + 1);
+  }
+
+  split_top run() {
+    const bool several = find_region() && find_parts();
+    take_stream_pragmas();
+    for (llvm::CallInst* call : calls_of(module_, dataflow_pragma)) call->eraseFromParent();
+    if (several)
+      make_parts();
+    else
+      result_.processes.push_back({result_.name, std::move(source_.module), result_.top.place, result_.top, false, {}});
+    return std::move(result_);
+  }
+
+ private:
+  /// An object of streams: one, or an array.
+  struct stream_object {
+    llvm::Value* object;
+    const llvm::DIVariable* variable;
+    std::vector<std::size_t> numbers;  // of its streams
+  };
+
+  // ---- what the processes are ---------------------------------------------------------------------------------------
+
+  /// The top and the functions with DATAFLOW it calls, which are as if they were written out in it; false: none has
+  /// DATAFLOW.
+  bool find_region() {
+    const std::set<llvm::Function*> reached = reached_from(process_);
+    std::set<const llvm::Function*> marked;
+    std::vector<llvm::CallInst*> pragmas;
+    for (llvm::CallInst* pragma : calls_of(module_, dataflow_pragma)) {
+      if (reached.count(pragma->getFunction()) == 0) continue;  // of another top in the same file
+      marked.insert(pragma->getFunction());
+      pragmas.push_back(pragma);
+    }
+    if (pragmas.empty()) return false;
+    check_functions(module_, process_);
+    dataflow_place_ = place_of(*pragmas.front());
+    region_ = {top_function_};
+    for (std::size_t i = 0; i < region_.size(); ++i)
+      for (llvm::Instruction& instruction : llvm::instructions(*region_[i])) {
+        llvm::Function* const callee = called_by(instruction);
+        if (callee == nullptr || callee->isDeclaration()) continue;
+        if (marked.count(callee) != 0)
+          add_once(region_, callee);
+        else if (takes_streams(*callee))
+          add_once(functions_, callee);
+      }
+    for (const llvm::CallInst* pragma : pragmas)
+      if (std::find(region_.begin(), region_.end(), pragma->getFunction()) == region_.end())
+        refuse(place_of(*pragma),
+               fmt::format("DATAFLOW in '{}', which is called from inside of a process: only the top, and functions "
+                           "with DATAFLOW that it calls itself, can be made of processes",
+                           readable_name(*pragma->getFunction())));
+    note_declared_streams();
+    return true;
+  }
+
+  static void add_once(std::vector<llvm::Function*>& list, llvm::Function* function) {
+    if (std::find(list.begin(), list.end(), function) == list.end()) list.push_back(function);
+  }
+
+  /// The local streams of the region, before those that nobody uses vanish.
+  void note_declared_streams() {
+    for (const llvm::Function* function : region_)
+      for (const llvm::Instruction& instruction : llvm::instructions(*function))
+        for (const llvm::DbgVariableRecord& record : llvm::filterDbgVars(instruction.getDbgRecordRange()))
+          if (stream_type(record.getVariable()->getType(), false) != nullptr) declared_.insert(record.getVariable());
+  }
+
+  /// Inlines all but the processes; false when one function without internal streams is left: an ordinary top.
+  bool find_parts() {
+    std::vector<llvm::Function*> roots = start_up_functions(module_);
+    roots.push_back(&process_);
+    roots.insert(roots.end(), functions_.begin(), functions_.end());
+    inline_everything(module_, roots, managers_);
+    is_inlined_ = true;
+    for (llvm::Function* function : functions_) clean_up(*function);
+    clean_up(process_);
+    find_calls();
+    unroll_calls();
+    find_streams();
+    if (calls_.size() == 1 && result_.streams.empty()) return false;
+    check_calls();
+    for (const llvm::DILocalVariable* variable : declared_)
+      if (std::none_of(objects_.begin(), objects_.end(),
+                       [&](const stream_object& object) { return object.variable == variable; }))
+        refuse(place_of(*variable),
+               fmt::format("the stream '{}' is never read or written: remove it", variable->getName().str()));
+    writers_ = check_objects(process_, calls_, stream_objects());
+    return true;
+  }
+
+  void clean_up(llvm::Function& function) {
+    split_whole_structs(function);
+    expand_copies(function, unknown_types::kept);
+    managers_.function.invalidate(function, llvm::PreservedAnalyses::none());
+    run_passes(function, managers_, early_cleanup());
+  }
+
+  /// In the order in which they take place, when each does once.
+  void find_calls() {
+    calls_.clear();
+    llvm::ReversePostOrderTraversal<llvm::Function*> order(&process_);
+    for (llvm::BasicBlock* block : order)
+      for (llvm::Instruction& instruction : *block)
+        if (std::find(functions_.begin(), functions_.end(), called_by(instruction)) != functions_.end() &&
+            called_by(instruction) != nullptr)
+          calls_.push_back(llvm::cast<llvm::CallInst>(&instruction));
+  }
+
+  /// `for (int i = 0; i < 4; ++i) worker(in[i], out[i]);` are four processes.
+  void unroll_calls() {
+    const auto& loops = managers_.function.getResult<llvm::LoopAnalysis>(process_);
+    if (std::none_of(calls_.begin(), calls_.end(),
+                     [&](const llvm::CallInst* call) { return loops.getLoopDepth(call->getParent()) > 1; }))
+      return;
+    rotate_loops(process_, managers_.function);
+    managers_.function.invalidate(process_, llvm::PreservedAnalyses::none());
+    static_cast<void>(unroll_loops(process_, managers_.function, true));
+    managers_.function.invalidate(process_, llvm::PreservedAnalyses::none());
+    run_passes(process_, managers_, early_cleanup());
+    find_calls();
+  }
+
+  void check_calls() {
+    if (calls_.empty())
+      refuse(dataflow_place_,
+             "DATAFLOW, but no function that takes streams is called here: its body must be local streams and calls of "
+             "functions that take them, one after another");
+    const auto& loops = managers_.function.getResult<llvm::LoopAnalysis>(process_);
+    const auto& dominators = managers_.function.getResult<llvm::DominatorTreeAnalysis>(process_);
+    for (const llvm::CallInst* call : calls_) {
+      const std::string function = short_name(*call->getCalledFunction());
+      if (!call->getType()->isVoidTy())
+        refuse(place_of(*call), fmt::format("DATAFLOW: the process '{}' returns a value: a process returns void and "
+                                            "gives its results through an hls::stream",
+                                            function));
+      const llvm::Loop* loop = loops.getLoopFor(call->getParent());
+      if (loop == nullptr || loop->getLoopDepth() != 1)
+        refuse(place_of(*call),
+               fmt::format("DATAFLOW: '{}' is called in a loop whose trips are not a small constant: a "
+                           "process is called once: put the loop into the functions",
+                           function));
+      llvm::SmallVector<llvm::BasicBlock*> latches;
+      loop->getLoopLatches(latches);
+      for (const llvm::BasicBlock* latch : latches)
+        if (!dominators.dominates(call->getParent(), latch))
+          refuse(place_of(*call), fmt::format("DATAFLOW: '{}' is called only if a condition holds: a process is called "
+                                              "once: put the condition into the function",
+                                              function));
+    }
+    for (llvm::Instruction& instruction : llvm::instructions(process_))
+      if (const llvm::Function* callee = called_by(instruction);
+          callee != nullptr && callee->getName().starts_with("__epiline_stream_"))
+        refuse(place_of(instruction),
+               "DATAFLOW: a stream is accessed beside the calls: put the access into a function that takes the stream");
+  }
+
+  // ---- the streams between them -------------------------------------------------------------------------------------
+
+  void find_streams() {
+    for (llvm::Instruction& instruction : llvm::instructions(process_))
+      for (const llvm::DbgVariableRecord& record : llvm::filterDbgVars(instruction.getDbgRecordRange())) {
+        if (!record.isAddressOfVariable()) continue;
+        auto* slot = llvm::dyn_cast_or_null<llvm::AllocaInst>(record.getVariableLocationOp(0));
+        if (slot != nullptr) add_streams(*slot, slot->getAllocatedType(), *record.getVariable(), false);
+      }
+    for (llvm::GlobalVariable& variable : module_.globals()) {
+      llvm::SmallVector<llvm::DIGlobalVariableExpression*, 1> described;
+      variable.getDebugInfo(described);
+      if (!variable.isDeclaration() && !variable.use_empty() && !described.empty())
+        add_streams(variable, variable.getValueType(), *described.front()->getVariable(), true);
+    }
+  }
+
+  void add_streams(llvm::Value& object, llvm::Type* type, const llvm::DIVariable& variable, bool is_static) {
+    const llvm::DICompositeType* stream = stream_type(variable.getType(), false);
+    const bool known = std::any_of(objects_.begin(), objects_.end(),
+                                   [&](const stream_object& other) { return other.object == &object; });
+    if (stream == nullptr || known) return;
+    const std::uint64_t count = module_.getDataLayout().getTypeAllocSize(type);  // a stream is a class without members
+    objects_.push_back({&object, &variable, {}});
+    for (std::uint64_t i = 0; i < count; ++i) {
+      objects_.back().numbers.push_back(result_.streams.size());
+      const std::string name = variable.getName().str();
+      result_.streams.push_back({fresh(count == 1 ? name : fmt::format("{}_{}", name, i), stream_names_),
+                                 depth_of(*stream), is_static, place_of(variable)});
+    }
+  }
+
+  [[nodiscard]] std::set<const llvm::Value*> stream_objects() const {
+    std::set<const llvm::Value*> all;
+    for (const stream_object& object : objects_) all.insert(object.object);
+    return all;
+  }
+
+  /// A name like the wanted one that no other has.
+  std::string fresh(const std::string& wanted, std::set<std::string>& taken) const {
+    std::string name = wanted;
+    const auto is_parameter = [&] {
+      return std::any_of(result_.top.parameters.begin(), result_.top.parameters.end(),
+                         [&](const auto& parameter) { return parameter.second == name; });
+    };
+    for (unsigned number = 2; taken.count(name) != 0 || is_parameter(); ++number)
+      name = fmt::format("{}_{}", wanted, number);
+    taken.insert(name);
+    return name;
+  }
+
+  void take_stream_pragmas() {
+    for (llvm::CallInst* call : calls_of(module_, stream_pragma)) {
+      const llvm::Function* const in = call->getFunction();
+      if (is_inlined_ && in != &process_ && std::find(functions_.begin(), functions_.end(), in) == functions_.end()) {
+        call->eraseFromParent();  // in what is left of a function that was inlined
+        continue;
+      }
+      llvm::APInt offset(64, 0);
+      const llvm::Value* const base =
+          call->getArgOperand(0)->stripAndAccumulateConstantOffsets(module_.getDataLayout(), offset, true);
+      const auto found = std::find_if(objects_.begin(), objects_.end(),
+                                      [&](const stream_object& object) { return object.object == base; });
+      const auto* depth = llvm::dyn_cast<llvm::ConstantInt>(call->getArgOperand(1));
+      const source_place place = place_of(*call);
+      if (depth == nullptr || depth->getSExtValue() < 0 || depth->getSExtValue() > most_depth)
+        refuse(place, fmt::format("#pragma HLS STREAM: the depth is not a number from 1 to {}", most_depth));
+      if (found == objects_.end() || depth->isZero()) {
+        if (place.line != 0)
+          source_.notes.push_back(
+              fmt::format("{}:{}: note: #pragma HLS STREAM has no effect: it does where it gives the depth of a stream "
+                          "between processes, beside its declaration",
+                          place.file, place.line));
+      } else {
+        for (std::size_t i = 0; i < found->numbers.size(); ++i)
+          if (offset == 0 || offset == i)  // the name of an array speaks of all its streams
+            result_.streams[found->numbers[i]].depth = static_cast<unsigned>(depth->getZExtValue());
+      }
+      call->eraseFromParent();
+    }
+  }
+
+  // ---- one module a process -----------------------------------------------------------------------------------------
+
+  static std::string short_name(const llvm::Function& function) {
+    const llvm::DISubprogram* program = function.getSubprogram();
+    return program != nullptr ? program->getName().str() : readable_name(function);
+  }
+
+  /// stage<3> as an identifier: stage_3.
+  static std::string identifier(const std::string& text) {
+    std::string name;
+    for (const char c : text)
+      if (llvm::isAlnum(c))
+        name += c;
+      else if (!name.empty() && name.back() != '_')
+        name += '_';
+    while (!name.empty() && name.back() == '_') name.pop_back();
+    return name.empty() ? "process" : name;
+  }
+
+  /// Says which object is which stream, where they all exist.
+  void mark_streams() {
+    llvm::IRBuilder<> builder(&*process_.getEntryBlock().getFirstNonPHIOrDbgOrAlloca());
+    llvm::FunctionCallee mark = module_.getOrInsertFunction(
+        internal_stream_name,
+        llvm::FunctionType::get(builder.getVoidTy(), {builder.getInt32Ty(), builder.getPtrTy()}, false));
+    llvm::cast<llvm::Function>(mark.getCallee())->setDoesNotThrow();
+    for (const stream_object& object : objects_)
+      for (std::size_t i = 0; i < object.numbers.size(); ++i)
+        builder.CreateCall(mark, {builder.getInt32(static_cast<std::uint32_t>(object.numbers[i])),
+                                  builder.CreateConstInBoundsGEP1_64(builder.getInt8Ty(), object.object, i)});
+  }
+
+  /// The process that writes a result: the variable behind it is the one that begins unwritten.
+  std::size_t writer_of(const llvm::CallInst& result) {
+    for (const llvm::CallInst* unwritten : calls_of(module_, "__epiline_unwritten", &process_))
+      if (unwritten->getArgOperand(0) == result.getArgOperand(0))
+        if (const auto found = writers_.find(unwritten->getArgOperand(1)->stripPointerCasts()); found != writers_.end())
+          return found->second;
+    return 0;
+  }
+
+  void make_parts() {
+    mark_streams();
+    std::vector<std::string> stream_names;
+    for (const internal_stream& stream : result_.streams) stream_names.push_back(stream.name);
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < calls_.size(); ++i) {
+      llvm::ValueToValueMapTy copies;
+      std::unique_ptr<llvm::Module> module = llvm::CloneModule(module_, copies);
+      for (std::size_t other = 0; other < calls_.size(); ++other)
+        if (other != i) llvm::cast<llvm::CallInst>(copies[calls_[other]])->eraseFromParent();
+      // A result that only the top itself computes is given by the first process.
+      for (llvm::CallInst* call : calls_of(module_, "__epiline_result", &process_))
+        if (writer_of(*call) != i) llvm::cast<llvm::CallInst>(copies[call])->eraseFromParent();
+      const std::string name =
+          fresh(fmt::format("{}_{}", result_.name, identifier(short_name(*calls_[i]->getCalledFunction()))), names);
+      result_.processes.push_back({name, std::move(module), place_of(*calls_[i]), result_.top, true, stream_names});
+    }
+  }
+
+  compiled_source& source_;
+  llvm::Module& module_;
+  llvm::Function& process_;
+  llvm::Function* top_function_ = nullptr;
+  analysis_managers managers_;
+  split_top result_;
+  source_place dataflow_place_;
+  bool is_inlined_ = false;                 // all but the processes
+  std::vector<llvm::Function*> region_;     // what is written out in the top
+  std::vector<llvm::Function*> functions_;  // that are processes
+  std::vector<llvm::CallInst*> calls_;      // one a process
+  std::set<const llvm::DILocalVariable*> declared_;
+  std::vector<stream_object> objects_;
+  std::set<std::string> stream_names_;
+  std::map<const llvm::Value*, std::size_t> writers_;  // of variables: the process
+};
+
+}  // namespace
+
+split_top split_into_processes(compiled_source& source, const source_options& options) {
+  return splitter(source, options).run();
+}
+
+}  // namespace epiline::frontend
