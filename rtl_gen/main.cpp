@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -11,6 +12,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "crash_report.hpp"
@@ -19,6 +21,7 @@
 #include "emit/network_verilog.hpp"
 #include "emit/register_map.hpp"
 #include "emit/report_page.hpp"
+#include "emit/signals.hpp"
 #include "frontend/frontend.hpp"
 #include "frontend/reproducer.hpp"
 #include "passes/pipeline.hpp"
@@ -38,6 +41,7 @@ struct command_line {
   std::uint64_t seed = 1;
   std::string output;
   std::string depfile;
+  std::vector<std::string> explain;  // a signal, and the folder of the Verilog it stands in; empty: compile
   std::string crash;
   bool axi_lite = false;
   bool quiet = false;
@@ -211,7 +215,9 @@ void run(const command_line& given) {
 
   const std::string& name = network.name;
   const nlohmann::json report = emit::make_network_report(network, model, schedules, pass_logs, given.axi_lite);
-  output.write(name + ".v", emit::emit_network(network, model, schedules, {.axi_lite = given.axi_lite}));
+  const emit::verilog_text verilog = emit::emit_network(network, model, schedules, {.axi_lite = given.axi_lite});
+  output.write(name + ".v", verilog.text);
+  output.write(name + ".signals.json", emit::signals_text(verilog.modules));
   output.write(name + ".graph",
                dataflow::is_single(network) ? dataflow::print(network.processes.front()) : dataflow::print(network));
   output.write("report.json", report.dump(2) + "\n");
@@ -235,8 +241,8 @@ void run(const command_line& given) {
                              schedules[i].initiation_interval == 1 ? "" : "s");
   std::cout << fmt::format(
       "  C++ to graph {:.1f} s, passes {:.1f} s, schedule {:.1f} s, Verilog and reports {:.1f} s\n"
-      "  {}/{}.v, {}.graph, report.json, report.txt, report.html{}\n",
-      frontend_seconds, pass_seconds, schedule_seconds, watch.lap(), given.output, name, name,
+      "  {}/{}.v, {}.graph, {}.signals.json, report.json, report.txt, report.html{}\n",
+      frontend_seconds, pass_seconds, schedule_seconds, watch.lap(), given.output, name, name, name,
       given.axi_lite ? fmt::format(", {0}_registers.h, {0}_registers.json, {0}_registers.md", name) : "");
 }
 
@@ -251,10 +257,13 @@ int main(int argc, char** argv) {
   CLI::App app("Compiles a C++ function over hls::stream into Verilog.");
   app.name("epiline-hls");
   app.set_version_flag("--version", "epiline-hls " EPILINE_VERSION);
-  app.add_option("source", given.source.source, "the C++ file that defines the top function")->required();
-  app.add_option("--top", given.source.top, "the top function's name")->required();
-  app.add_option("-o,--output", given.output, "folder for NAME.v, NAME.graph, report.json, report.txt and report.html")
-      ->required();
+  // Explaining needs nothing of what compiling needs.
+  const bool explains = std::any_of(argv + 1, argv + argc, [](std::string_view word) { return word == "--explain"; });
+  app.add_option("source", given.source.source, "the C++ file that defines the top function")->required(!explains);
+  app.add_option("--top", given.source.top, "the top function's name")->required(!explains);
+  app.add_option("-o,--output", given.output,
+                 "folder for NAME.v, NAME.graph, NAME.signals.json, report.json, report.txt and report.html")
+      ->required(!explains);
   app.add_option("--target", given.target, "device whose delays and memories are assumed: ecp5, hx8k, generic")
       ->capture_default_str();
   app.add_option("--clock", given.clock,
@@ -273,6 +282,9 @@ int main(int argc, char** argv) {
       "put the scalar arguments into registers behind an AXI4-Lite slave, with NAME_registers.h, .json and .md");
   app.add_option("--depfile", given.depfile, "write the files read, as a Makefile rule, for build systems");
   app.add_option("--crash", given.crash)->group("");  // hidden: for the tests of the crash report
+  app.add_option("--explain", given.explain, "say which source lines a name in the Verilog of FOLDER comes from")
+      ->type_name("SIGNAL FOLDER")
+      ->expected(2);
   app.add_flag("-q,--quiet", given.quiet, "print nothing but problems");
   CLI11_PARSE(app, argc, argv);
   try {
@@ -280,8 +292,13 @@ int main(int argc, char** argv) {
         (given.interval.find_first_not_of("0123456789") != std::string::npos || given.interval.empty() ||
          given.interval.size() > 3 || std::stoi(given.interval) == 0))
       throw usage_error(fmt::format("--ii {}: give a number from 1 to 999, or auto", given.interval));
-    run(given);
+    if (given.explain.empty())
+      run(given);
+    else
+      std::cout << emit::explain_signal(given.explain[0], given.explain[1]);
     return 0;
+  } catch (const emit::unknown_signal& refusal) {
+    std::cerr << "error: " << refusal.what() << '\n';
   } catch (const frontend::refused& refusal) {
     std::cerr << refusal.what() << '\n';
   } catch (const schedule::infeasible& refusal) {

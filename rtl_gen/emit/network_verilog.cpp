@@ -33,7 +33,7 @@ class network_writer {
         outside_(outside_of(n)),
         interface_(interface_of(outside_, false)) {}
 
-  std::string write() {
+  verilog_text write() {
     reserve_signals(outside_, interface_, taken_);
     for (const graph& g : n_.processes) taken_.insert(g.name);
     for (const fifo& f : n_.fifos) taken_.insert(fifo_instance_name(f));  // testbenches look for it
@@ -44,15 +44,19 @@ class network_writer {
     for (const graph& g : n_.processes) write_process(g);
     line("\nendmodule");
     line("\n/* verilator lint_off DECLFILENAME */");
-    for (std::size_t i = 0; i < n_.processes.size(); ++i)
-      out_ += "\n" + emit_verilog(n_.processes[i], model_, schedules_[i], options_);
+    std::vector<module_signals> modules = {{n_.name, n_.files, signals()}};
+    for (std::size_t i = 0; i < n_.processes.size(); ++i) {
+      verilog_text process = emit_module(n_.processes[i], model_, schedules_[i], options_);
+      out_ += "\n" + process.text;
+      modules.push_back(std::move(process.modules.front()));
+    }
     line("/* verilator lint_on DECLFILENAME */");
     line("`default_nettype none");
     std::set<schedule::storage_kind> used;
     for (const fifo& f : n_.fifos) used.insert(plan_fifo(f, model_).storage);
     for (const schedule::storage_kind storage : used) line("{}", fifo_module(storage));
     line("`default_nettype wire");
-    return std::move(out_);
+    return {std::move(out_), std::move(modules)};
   }
 
  private:
@@ -134,7 +138,8 @@ class network_writer {
   void write_process(const graph& g) {
     const std::size_t index = static_cast<std::size_t>(&g - n_.processes.data());
     line("\n  // ---- process {} ----{}", g.name, comment(n_.called[index]));
-    std::string text = fmt::format("  {} {} (\n    .clk(clk), .rst(rst)", g.name, fresh(g.name + "_process"));
+    process_names_.push_back(fresh(g.name + "_process"));
+    std::string text = fmt::format("  {} {} (\n    .clk(clk), .rst(rst)", g.name, process_names_.back());
     const auto connect = [&](const std::string& own, const std::string& wire) {
       fmt::format_to(std::back_inserter(text), ",\n    .{}({})", own, wire);
     };
@@ -169,6 +174,41 @@ class network_writer {
     line("{}\n  );", text);
   }
 
+  /// What the names of the top module come from.
+  [[nodiscard]] std::vector<signal> signals() const {
+    std::vector<signal> all = {{"clk", "control", "the clock", 1, -1, {}},
+                               {"rst", "control", "the reset, active high", 1, -1, {}},
+                               {n_.name, "control", "the module", 0, -1, {}}};
+    for (const rtl_port& p : interface_) {
+      for (const rtl_field& f : p.fields)
+        all.push_back({f.rtl, "port signal", "of '" + p.name + "'", f.width, -1, {p.where}});
+      for (const std::string& name : {p.valid, p.ready})
+        all.push_back({name, "port signal", "of '" + p.name + "'", 1, -1, {p.where}});
+    }
+    for (std::size_t i = 0; i < n_.fifos.size(); ++i) {
+      const fifo& f = n_.fifos[i];
+      const auto add = [&](const end_wires& wires, const char* side) {
+        const std::string what = fmt::format("{} of the stream '{}'", side, f.name);
+        all.push_back({wires.data, "FIFO", what, f.width, -1, {f.where}});
+        all.push_back({wires.valid, "FIFO", what, 1, -1, {f.where}});
+        all.push_back({wires.ready, "FIFO", what, 1, -1, {f.where}});
+      };
+      add(ends_[i].first, "the writer's end");
+      add(ends_[i].second, "the reader's end");
+      all.push_back({fifo_instance_name(f), "FIFO", "the instance of '" + f.name + "'", f.width, -1, {f.where}});
+    }
+    for (std::size_t i = 0; i < n_.processes.size(); ++i) {
+      const std::string what = "the process '" + n_.processes[i].name + "'";
+      all.push_back({n_.processes[i].name, "control", what, 0, -1, {n_.called[i]}});
+      all.push_back({process_names_[i], "control", "the instance of " + what, 0, -1, {n_.called[i]}});
+      if (i < call_ready_.size() && !call_ready_[i].empty())
+        all.push_back({call_ready_[i], "control", "1 when " + what + " can take a call", 1, -1, {}});
+    }
+    if (!call_accepted_.empty())
+      all.push_back({call_accepted_, "control", "1 when all processes take a call", 1, -1, {}});
+    return all;
+  }
+
   const network& n_;
   const schedule::delay_model& model_;
   const std::vector<schedule::result>& schedules_;
@@ -180,6 +220,7 @@ class network_writer {
   std::vector<std::pair<end_wires, end_wires>> ends_;  // of the FIFOs, in order
   std::vector<std::string> call_ready_;                // by process; empty without a call port
   std::string call_accepted_;
+  std::vector<std::string> process_names_;
 };
 
 }  // namespace
@@ -194,9 +235,9 @@ dataflow::graph outside_of(const network& n) {
 
 std::string fifo_instance_name(const fifo& f) { return f.name + "_fifo"; }
 
-std::string emit_network(const network& n, const schedule::delay_model& model,
-                         const std::vector<schedule::result>& schedules, const verilog_options& options) {
-  if (is_single(n)) return emit_verilog(n.processes.front(), model, schedules.front(), options);
+verilog_text emit_network(const network& n, const schedule::delay_model& model,
+                          const std::vector<schedule::result>& schedules, const verilog_options& options) {
+  if (is_single(n)) return emit_module(n.processes.front(), model, schedules.front(), options);
   return network_writer(n, model, schedules, options).write();
 }
 

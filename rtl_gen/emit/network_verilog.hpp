@@ -15,10 +15,10 @@ namespace epiline::emit {
 /// The name of the FIFO's instance in the top module.
 [[nodiscard]] std::string fifo_instance_name(const dataflow::fifo& f);
 
-/// The text, the same for the same input. `schedules` are those of the processes. Throws std::invalid_argument like
+/// The file, the same for the same input. `schedules` are those of the processes. Throws std::invalid_argument like
 /// emit_verilog.
-[[nodiscard]] std::string emit_network(const dataflow::network& n, const schedule::delay_model& model,
-                                       const std::vector<schedule::result>& schedules,
-                                       const verilog_options& options = {});
+[[nodiscard]] verilog_text emit_network(const dataflow::network& n, const schedule::delay_model& model,
+                                        const std::vector<schedule::result>& schedules,
+                                        const verilog_options& options = {});
 
 }  // namespace epiline::emit

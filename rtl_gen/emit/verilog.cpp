@@ -9,6 +9,7 @@
 #include <bit>
 #include <cctype>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 #include <unordered_set>
@@ -109,6 +110,8 @@ class writer {
         interface_(interface_of(g, options.axi_lite)) {}
 
   std::string write();
+  /// What the names that write() has given come from.
+  [[nodiscard]] std::vector<signal> signals() const;
 
  private:
   // --- names ---
@@ -170,6 +173,7 @@ class writer {
   void write_delay_pointers();
   void write_node(node_id id);
   void declare_register(register_id r);
+  void collect_lines(node_id id, std::vector<dataflow::source_location>& lines) const;
 
   bool is_sampled(const dataflow::port& port) const { return options_.axi_lite && port.kind == port_kind::call; }
   bool has_hold() const { return s_.hold > 0 || s_.initiation_interval > 1; }
@@ -1291,11 +1295,110 @@ std::string writer::write() {
   return std::move(out_);
 }
 
+/// The line of a node and those of the operands whose text is part of its own.
+void writer::collect_lines(node_id id, std::vector<dataflow::source_location>& lines) const {
+  const node& n = g_.nodes[id];
+  const bool is_new = std::none_of(lines.begin(), lines.end(), [&](const dataflow::source_location& known) {
+    return known.file == n.where.file && known.line == n.where.line;
+  });
+  if (is_new && n.where.line != 0) lines.push_back(n.where);
+  for (const node_id operand : n.operands) {
+    if (inlined_[operand]) collect_lines(operand, lines);
+  }
+}
+
+std::vector<signal> writer::signals() const {
+  std::vector<signal> all = {{"clk", "control", "the clock", 1, -1, {}},
+                             {"rst", "control", "the reset, active high", 1, -1, {}},
+                             {"fire", "control", "1 when an iteration is issued", 1, -1, {}},
+                             {"running", "control", "1 outside of the reset", 1, -1, {}},
+                             {"valid", "control", "which stages hold an iteration", 0, -1, {}},
+                             {"hold", "control", "clocks until the next issue may come", 0, -1, {}},
+                             {"holding", "control", "1 while no issue may come", 1, -1, {}},
+                             {"commit", "control", "1 when registers that wait for the pipeline change", 1, -1, {}},
+                             {g_.name, "control", "the module", 0, -1, {}}};
+  for (const rtl_port& port : interface_) {
+    const auto add = [&](const std::string& name, unsigned width) {
+      all.push_back({name, "port signal", fmt::format("of '{}'", port.name), width, -1, {port.where}});
+    };
+    for (const rtl_field& f : port.fields) add(f.rtl, f.width);
+    add(port.valid, 1);
+    add(port.ready, 1);
+  }
+  for (std::size_t i = 0; i < g_.ports.size(); ++i) {
+    const dataflow::port& port = g_.ports[i];
+    all.push_back({port_name_[i], "port", port.input ? "input" : "output", port.width, -1, {port.where}});
+  }
+  if (options_.axi_lite) {
+    const register_map map = make_register_map(g_);
+    all.push_back({map.module(), "control", "the AXI4-Lite slave in front of the arguments", 0, -1, {}});
+    for (const argument_register& argument : map.arguments) {
+      const std::string what = fmt::format("argument '{}' behind the AXI4-Lite slave", argument.name);
+      all.push_back({"argument_" + argument.name, "register", what, 0, -1, {}});
+    }
+    for (const char* inside :
+         {"aw_there", "aw_waits", "w_there", "w_waits", "ar_there", "ar_waits", "write", "read", "write_word",
+          "write_data", "write_strobe", "read_word", "calls", "arguments", "started", "start", "keep"}) {
+      all.push_back({inside, "control", "inside the AXI4-Lite slave", 0, -1, {}});
+    }
+  }
+  for (register_id r = 0; r < g_.registers.size(); ++r) {
+    const dataflow::register_state& state = g_.registers[r];
+    std::vector<dataflow::source_location> lines;
+    if (state.where.line != 0) lines.push_back(state.where);
+    if (g_.nodes[state.next].kind != operation::constant) collect_lines(state.next, lines);
+    all.push_back({register_name_[r], "register", "", state.width, s_.register_stage[r], std::move(lines)});
+    if (!pending_name_[r].empty() && pending_name_[r] != register_name_[r] + "_pending") {
+      all.push_back({pending_name_[r], "register", "its next value", state.width, -1, {state.where}});
+    }
+  }
+  for (std::size_t m = 0; m < g_.memories.size(); ++m) {
+    const dataflow::memory& memory = g_.memories[m];
+    all.push_back({memory_name_[m], "memory", fmt::format("{} words", memory.words), memory.width, -1, {memory.where}});
+  }
+  for (std::size_t t = 0; t < g_.tables.size(); ++t) {
+    const dataflow::table& table = g_.tables[t];
+    const std::string words = fmt::format("{} words", table.values.size());
+    all.push_back({table_name_[t], "table", words, table.width, -1, {table.where}});
+  }
+  for (std::size_t i = 0; i < plan_.lines.size(); ++i) {
+    const delay_line& line = plan_.lines[i];
+    std::vector<dataflow::source_location> lines;
+    for (const node_id id : line.values) collect_lines(id, lines);
+    const std::string what = fmt::format("values that wait from stage {} to {}", line.from, line.to);
+    all.push_back({line_name_[i], "delay line", what, line.width, line.to, std::move(lines)});
+  }
+  std::set<int> lengths;
+  for (const delay_line& line : plan_.lines) lengths.insert(line.words());
+  for (const int words : lengths) {
+    const std::string what = fmt::format("pointer of the delay lines of {} words", words);
+    for (const char* end : {"in", "out"}) {
+      all.push_back({fmt::format("delay_{}_{}", words, end), "control", what, bits_for(words - 1), -1, {}});
+    }
+  }
+  for (node_id id = 0; id < g_.nodes.size(); ++id) {
+    const node& n = g_.nodes[id];
+    if (node_name_[id].empty() || n.kind == operation::register_value) continue;
+    if (inlined_[id] && plan_.waits[id].empty()) continue;  // its text is part of others'
+    std::vector<dataflow::source_location> lines;
+    collect_lines(id, lines);
+    all.push_back({node_name_[id], "value", dataflow::name_of(n.kind), n.width, s_.stage[id], std::move(lines)});
+  }
+  return all;
+}
+
 }  // namespace
+
+verilog_text emit_module(const graph& g, const schedule::delay_model& model, const schedule::result& s,
+                         const verilog_options& options) {
+  writer all(g, model, s, options);
+  std::string text = all.write();
+  return {std::move(text), {{g.name, g.files, all.signals()}}};
+}
 
 std::string emit_verilog(const graph& g, const schedule::delay_model& model, const schedule::result& s,
                          const verilog_options& options) {
-  return writer(g, model, s, options).write();
+  return emit_module(g, model, s, options).text;
 }
 
 }  // namespace epiline::emit

@@ -54,6 +54,9 @@ COMMAND_LINES = [
     ("two sources", ["{source}", "{source}", "--top", "fir", "-o", "{out}"], r"not expected|fir\.cpp"),
     ("makefile rule below a file", ["{source}", "--top", "fir", "-o", "{out}", "--depfile", "{file}/rule.d"],
      r"{file}/rule\.d"),
+    ("explaining in no folder", ["--explain", "x", "{out}_no_such"], r"{out}_no_such: cannot be read: No such file"),
+    ("explaining in a foreign folder", ["--explain", "x", "{folder}"], r"{folder}: no \*\.signals\.json in it: name"),
+    ("explaining without a folder", ["--explain", "x"], r"--explain"),
     ("period below any operation", ["{source}", "--top", "fir", "--clock", "0.01ns", "-o", "{out}"], r"period"),
 ]
 

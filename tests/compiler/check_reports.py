@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The reports of all kernels: report.json obeys docs/report.schema.json, report.html is a page of its own.
+"""The reports of all kernels: report.json obeys docs/report.schema.json, report.html is a page of its own, and --explain leads every name
+in the slowest chain to its line.
 
   check_reports.py COMPILER
 
@@ -83,6 +84,26 @@ def check_page(text, report, source):
     return problems
 
 
+def check_explained(compiler, out, report, top):
+    """The register of the slowest recurrence, told by its name in the Verilog, comes from the line that the report names."""
+    for part in pipelines(report):
+        loop = part["limiting_recurrence"]
+        if loop is None:
+            continue
+        said = subprocess.run([compiler, "--explain", f"dut.{loop['register']}[0]", str(out)], capture_output=True,
+                              text=True, check=False)
+        where = loop["where"] and f"{pathlib.Path(loop['where']['file']).name}:{loop['where']['line']}: "
+        if said.returncode != 0 or f"{loop['register']}: register, " not in said.stdout:
+            return [f"does not explain {loop['register']!r}: {said.stdout}{said.stderr}"]
+        if where and where not in said.stdout:
+            return [f"explains {loop['register']!r} without {where!r}: {said.stdout}"]
+    wrong = subprocess.run([compiler, "--explain", f"no_such_{top}", str(out)], capture_output=True, text=True, check=False)
+    if wrong.returncode != 1 or not re.fullmatch(rf"error: there is no signal 'no_such_{top}' in .*; the nearest are '.*'\n",
+                                                 wrong.stderr):
+        return [f"does not refuse an unknown name: {wrong.stderr}"]
+    return []
+
+
 def places(value, path=()):
     """The path of every field in objects."""
     if isinstance(value, dict):
@@ -147,6 +168,7 @@ def main():
             problems = [f"{'/'.join(map(str, e.absolute_path))}: {e.message[:200]}"
                         for e in validator.iter_errors(report)]
             problems += check_page(texts[1], report, kernel)
+            problems += check_explained(compiler, out, report, kernel.stem)
             if kernel is kernels[0] and compile_into(out.with_name("again")) != texts:
                 problems.append("the reports differ from run to run")
             if problems:

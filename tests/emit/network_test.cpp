@@ -26,7 +26,7 @@ struct emitted {
 
   explicit emitted(const network& n) {
     for (const dataflow::graph& g : n.processes) schedules.push_back(schedule::make_schedule(g, model, {}));
-    verilog = emit::emit_network(n, model, schedules);
+    verilog = emit::emit_network(n, model, schedules).text;
     report =
         emit::make_network_report(n, model, schedules, std::vector<json>(n.processes.size(), json::array()), false);
   }
@@ -75,7 +75,7 @@ TEST(network_verilog, of_one_graph_is_its_own) {
   const dataflow::graph g = dataflow::testing::sorter();
   const schedule::delay_model model("ecp5");
   const std::vector<schedule::result> schedules = {schedule::make_schedule(g, model, {})};
-  EXPECT_EQ(emit::emit_network(dataflow::network_of(g), model, schedules),
+  EXPECT_EQ(emit::emit_network(dataflow::network_of(g), model, schedules).text,
             emit::emit_verilog(g, model, schedules.front()));
   EXPECT_EQ(emit::make_network_report(dataflow::network_of(g), model, schedules, {json::array()}, false),
             emit::make_report(g, model, schedules.front()));
