@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -175,7 +176,22 @@ class stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+/// The name becomes text of the program that is compiled, and the name of files.
+void check_top_name(const std::string& top) {
+  std::string_view rest = top.starts_with("::") ? std::string_view(top).substr(2) : top;
+  for (;;) {
+    const std::string_view part = rest.substr(0, rest.find("::"));
+    const bool is_name =
+        !part.empty() && std::isdigit(static_cast<unsigned char>(part.front())) == 0 &&
+        std::all_of(part.begin(), part.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+    if (!is_name) throw usage_error(fmt::format("--top {}: not the name of a function: give name or scope::name", top));
+    if (part.size() == rest.size()) return;
+    rest.remove_prefix(part.size() + 2);
+  }
+}
+
 void run(const command_line& given) {
+  check_top_name(given.source.top);
   const double period = parse_clock(given.clock);
   const schedule::delay_model model(given.target);
   output_folder output(given.output);

@@ -29,6 +29,11 @@ COMMAND_LINES = [
     ("source is a folder", ["{folder}", "--top", "fir", "-o", "{out}"], r"{folder}"),
     ("no such top", ["{source}", "--top", "no_such_top", "-o", "{out}"], r"no_such_top"),
     ("top is no name", ["{source}", "--top", "two words", "-o", "{out}"], r"two words"),
+    ("top is a path", ["{source}", "--top", "../fir", "-o", "{out}"], r"--top \.\./fir: not the name of a function"),
+    ("top is nothing", ["{source}", "--top", "", "-o", "{out}"], r"--top"),
+    ("top ends in a scope", ["{source}", "--top", "kernels::", "-o", "{out}"], r"--top kernels::: not the name"),
+    ("top is code", ["{source}", "--top", "fir>(0); }} int evil = system(", "-o", "{out}"], r"evil.*not the name"),
+    ("top is more than a line", ["{source}", "--top", 'fir\n#include "/etc/passwd"', "-o", "{out}"], r"not the name"),
     ("no top", ["{source}", "-o", "{out}"], r"--top"),
     ("no output", ["{source}", "--top", "fir"], r"-o|--output"),
     ("no source", ["--top", "fir", "-o", "{out}"], r"SOURCE|source"),
@@ -131,8 +136,12 @@ def check_command_line(compiler, arguments, expression, folder):
     binary.write_bytes(bytes(range(256)) * 64)
     values = {"out": str(out), "source": str(KERNEL), "file": str(plain), "folder": str(folder), "empty": str(empty),
               "binary": str(binary)}
+    there = {path.name for path in folder.iterdir()} | {"out"}
     result = run(compiler, [a.format(**values) for a in arguments])
     problems = judge(result, out)
+    new = {path.name for path in folder.iterdir()} - there
+    if new:
+        problems.append(f"wrote {sorted(new)} beside the output folder")
     if plain.read_text(encoding="utf-8") != "untouched":
         problems.append("changed a file it should not")
     expression = expression.format(**{k: re.escape(v) for k, v in values.items()})

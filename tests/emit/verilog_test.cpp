@@ -237,6 +237,9 @@ TEST(emit_verilog, refuses_ports_it_cannot_name) {
   };
   refuses([](graph& g) { g.name = "module"; }, "'module' cannot have that name");
   refuses([](graph& g) { g.name = "two words"; }, "'two words' cannot have that name");
+  refuses([](graph& g) { g.name = "../evil"; }, "'../evil' cannot have that name");
+  refuses([](graph& g) { g.name = "evil; endmodule\nmodule other"; }, "cannot have that name");
+  refuses([](graph& g) { g.name = ""; }, "'' cannot have that name");
   refuses([](graph& g) { g.ports[0].fields[0].signal = "clk"; }, "'clk' has the name of another signal");
   refuses([](graph& g) { g.ports[0].fields[0].signal = "fire"; }, "'fire' has the name of a control signal");
   refuses([](graph& g) { g.ports[0].fields[0].signal = "output"; }, "'output' cannot have that name");
