@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 #include <llvm/ADT/PostOrderIterator.h>
 #include <llvm/ADT/StringExtras.h>
-#include <llvm/Analysis/LoopInfo.h>
 #include <llvm/BinaryFormat/Dwarf.h>
 #include <llvm/IR/DebugInfoMetadata.h>
-#include <llvm/IR/Dominators.h>
 #include <llvm/IR/IRBuilder.h>
 #include <llvm/IR/InstIterator.h>
 #include <llvm/IR/IntrinsicInst.h>
@@ -54,12 +52,12 @@ const llvm::DICompositeType* stream_type(const llvm::DIType* type, bool behind_r
   return nullptr;
 }
 
-/// DEPTH of hls::stream<T, DEPTH>; the default without.
+/// DEPTH of hls::stream<T, DEPTH>; 0 without.
 unsigned depth_of(const llvm::DICompositeType& type) {
   llvm::StringRef last = type.getName().rsplit(',').second.trim();
   unsigned depth = 0;
   const bool given = !last.consumeInteger(10, depth) && last.trim() == ">" && depth != 0;
-  return given ? std::min(depth, most_depth) : default_depth;
+  return given ? std::min(depth, most_depth) : 0;
 }
 
 /// A function that can be a process: one that takes streams and is not one of the streams' own.
@@ -252,11 +250,18 @@ class splitter {
           calls_.push_back(llvm::cast<llvm::CallInst>(&instruction));
   }
 
-  /// `for (int i = 0; i < 4; ++i) worker(in[i], out[i]);` are four processes.
+  /// `for (int i = 0; i < 4; ++i) worker(in[i], out[i]);` are four processes: the loop chooses streams. Any other loop
+  /// stays one, in every process.
   void unroll_calls() {
-    const auto& loops = managers_.function.getResult<llvm::LoopAnalysis>(process_);
-    if (std::none_of(calls_.begin(), calls_.end(),
-                     [&](const llvm::CallInst* call) { return loops.getLoopDepth(call->getParent()) > 1; }))
+    const auto chooses = [&](const llvm::Use& argument) {
+      llvm::APInt offset(64, 0);
+      return argument->getType()->isPointerTy() &&
+             llvm::isa<llvm::GetElementPtrInst>(
+                 argument->stripAndAccumulateConstantOffsets(module_.getDataLayout(), offset, true));
+    };
+    if (std::none_of(calls_.begin(), calls_.end(), [&](const llvm::CallInst* call) {
+          return std::any_of(call->arg_begin(), call->arg_end(), chooses);
+        }))
       return;
     rotate_loops(process_, managers_.function);
     managers_.function.invalidate(process_, llvm::PreservedAnalyses::none());
@@ -271,27 +276,12 @@ class splitter {
       refuse(dataflow_place_,
              "DATAFLOW, but no function that takes streams is called here: its body must be local streams and calls of "
              "functions that take them, one after another");
-    const auto& loops = managers_.function.getResult<llvm::LoopAnalysis>(process_);
-    const auto& dominators = managers_.function.getResult<llvm::DominatorTreeAnalysis>(process_);
     for (const llvm::CallInst* call : calls_) {
       const std::string function = short_name(*call->getCalledFunction());
       if (!call->getType()->isVoidTy())
         refuse(place_of(*call), fmt::format("DATAFLOW: the process '{}' returns a value: a process returns void and "
                                             "gives its results through an hls::stream",
                                             function));
-      const llvm::Loop* loop = loops.getLoopFor(call->getParent());
-      if (loop == nullptr || loop->getLoopDepth() != 1)
-        refuse(place_of(*call),
-               fmt::format("DATAFLOW: '{}' is called in a loop whose trips are not a small constant: a "
-                           "process is called once: put the loop into the functions",
-                           function));
-      llvm::SmallVector<llvm::BasicBlock*> latches;
-      loop->getLoopLatches(latches);
-      for (const llvm::BasicBlock* latch : latches)
-        if (!dominators.dominates(call->getParent(), latch))
-          refuse(place_of(*call), fmt::format("DATAFLOW: '{}' is called only if a condition holds: a process is called "
-                                              "once: put the condition into the function",
-                                              function));
     }
     for (llvm::Instruction& instruction : llvm::instructions(process_))
       if (const llvm::Function* callee = called_by(instruction);
@@ -323,12 +313,13 @@ class splitter {
                                    [&](const stream_object& other) { return other.object == &object; });
     if (stream == nullptr || known) return;
     const std::uint64_t count = module_.getDataLayout().getTypeAllocSize(type);  // a stream is a class without members
+    const unsigned given = depth_of(*stream);
     objects_.push_back({&object, &variable, {}});
     for (std::uint64_t i = 0; i < count; ++i) {
       objects_.back().numbers.push_back(result_.streams.size());
       const std::string name = variable.getName().str();
       result_.streams.push_back({fresh(count == 1 ? name : fmt::format("{}_{}", name, i), stream_names_),
-                                 depth_of(*stream), is_static, place_of(variable)});
+                                 given == 0 ? default_depth : given, given != 0, is_static, place_of(variable)});
     }
   }
 
@@ -375,8 +366,10 @@ class splitter {
                           place.file, place.line));
       } else {
         for (std::size_t i = 0; i < found->numbers.size(); ++i)
-          if (offset == 0 || offset == i)  // the name of an array speaks of all its streams
+          if (offset == 0 || offset == i) {  // the name of an array speaks of all its streams
             result_.streams[found->numbers[i]].depth = static_cast<unsigned>(depth->getZExtValue());
+            result_.streams[found->numbers[i]].depth_given = true;
+          }
       }
       call->eraseFromParent();
     }

@@ -21,11 +21,15 @@ struct top_description {
   std::map<unsigned, std::string> parameters;  // names, by index from 0
 };
 
+/// The FIFO's depth of a stream that says nothing about it, as in the vendors' tools.
+inline constexpr unsigned default_depth = 2;
+
 /// A stream between processes: a local or static hls::stream, or an element of an array of them.
 struct internal_stream {
   std::string name;  // unlike every other stream's and parameter's
-  unsigned depth = 2;
-  bool is_static = false;  // keeps tokens from call to call
+  unsigned depth = default_depth;
+  bool depth_given = false;  // by the source
+  bool is_static = false;    // keeps tokens from call to call
   source_place place;
 };
 
@@ -48,9 +52,6 @@ struct split_top {
 };
 
 inline constexpr const char* internal_stream_name = "__epiline_internal_stream";
-
-/// The FIFO's depth of a stream that says nothing about it, as in the vendors' tools.
-inline constexpr unsigned default_depth = 2;
 
 /// Takes the module out of `source`, adds notes about pragmas without effect to it. Throws `refused` for a top with
 /// DATAFLOW that is no such sequence, and when processes are joined by anything else than streams.
