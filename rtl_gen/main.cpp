@@ -26,6 +26,7 @@
 #include "frontend/frontend.hpp"
 #include "frontend/reproducer.hpp"
 #include "passes/pipeline.hpp"
+#include "schedule/balance_fifos.hpp"
 #include "schedule/schedule.hpp"
 
 namespace {
@@ -227,6 +228,9 @@ void run(const command_line& given) {
   std::vector<schedule::result> schedules;
   for (std::size_t i = 0; i < network.processes.size(); ++i)
     schedules.push_back(find_schedule(network.processes[i], model, given, period, lowered[i].initiation_interval));
+  std::vector<bool> may_grow;
+  for (const frontend::internal_stream& stream : split.streams) may_grow.push_back(!stream.depth_given);
+  schedule::balance_fifos(network, schedules, may_grow);
   const double schedule_seconds = watch.lap();
 
   const std::string& name = network.name;

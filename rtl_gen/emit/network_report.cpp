@@ -47,7 +47,6 @@ json make_network_report(const dataflow::network& n, const schedule::delay_model
                        {"instance", fifo_instance_name(f)},
                        {"width", f.width},
                        {"depth", p.depth},
-                       {"depth_in_source", f.depth},
                        {"writer", n.processes[find_end(n, f.name, false).process].name},
                        {"reader", n.processes[find_end(n, f.name, true).process].name},
                        {"storage", schedule::name_of(p.storage)},

@@ -11,6 +11,7 @@
 #include "emit/interface.hpp"
 #include "emit/register_map.hpp"
 #include "emit/report_breakdown.hpp"
+#include "schedule/balance_fifos.hpp"
 
 namespace epiline::emit {
 
@@ -79,7 +80,7 @@ json make_report(const graph& g, const schedule::delay_model& model, const sched
   unsigned block_rams = 0;
   for (const output_fifo& f : p.fifos) {
     const dataflow::port& port = g.ports[f.port];
-    latency[port.name] = f.stage + 3;
+    latency[port.name] = schedule::latency_of(g, s, f.port);
     fifos.push_back({{"port", port.name}, {"stage", f.stage}, {"depth", f.depth}, {"width", port.width}});
     if (f.storage == storage_kind::block) {
       block_rams += model.blocks(f.depth, port.width);

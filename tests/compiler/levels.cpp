@@ -83,8 +83,8 @@ void append(cosim::token_list& list, const llvm::APInt& value) {
 
 graph_verdict run_graph(const dataflow::network& design, const std::vector<recorded_port>& recorded) {
   graph_verdict verdict;
-  // Processes that wait for one another's rates are not clocked by the busiest one alone either.
-  verdict.waits = !is_single(design) || design.processes.front().patient != dataflow::none;
+  verdict.waits =
+      std::ranges::any_of(design.processes, [](const dataflow::graph& g) { return g.patient != dataflow::none; });
   check_count(design.ports, recorded);
   dataflow::network_interpreter engine(design);
   for (dataflow::port_id id = 0; id < design.ports.size(); ++id) {
