@@ -1,6 +1,7 @@
 #include "frontend/lower.hpp"
 
 #include <fmt/format.h>
+#include <llvm/ADT/MapVector.h>
 #include <llvm/Analysis/LoopInfo.h>
 #include <llvm/IR/DebugInfoMetadata.h>
 #include <llvm/IR/InstIterator.h>
@@ -9,6 +10,7 @@
 #include <llvm/Transforms/Scalar/InstSimplifyPass.h>
 #include <llvm/Transforms/Scalar/SCCP.h>
 #include <llvm/Transforms/Scalar/SimplifyCFG.h>
+#include <llvm/Transforms/Utils/BasicBlockUtils.h>
 #include <llvm/Transforms/Utils/LowerSwitch.h>
 
 #include <algorithm>
@@ -271,7 +273,40 @@ class port_lowering {
     finished_.push_back(&call);
   }
 
+  /// `lanes[i].write(v)`: an access of each stream of the array, on the condition that it is the one. Where a loop over
+  /// them is unrolled later, one is left. Returns whether the access is replaced.
+  bool expand_choice(llvm::CallInst& call) {
+    const auto* element = llvm::dyn_cast<llvm::GEPOperator>(call.getArgOperand(0));
+    if (element == nullptr || object_behind(element).first != element) return false;
+    const auto [object, unused] = object_behind(element->getPointerOperand());
+    llvm::MapVector<llvm::Value*, llvm::APInt> variable;
+    llvm::APInt constant(64, unused);
+    if (!element->collectOffset(layout(), 64, variable, constant)) return false;
+    std::vector<std::uint64_t> elements;
+    for (const auto& [stream, port] : ports_of_objects_)
+      if (stream.first == object) elements.push_back(stream.second);
+    if (elements.empty()) return false;
+    llvm::IRBuilder<> builder(&call);
+    llvm::Value* number = builder.getInt(constant);
+    for (const auto& [value, scale] : variable)
+      number = builder.CreateAdd(
+          number, builder.CreateMul(builder.CreateSExtOrTrunc(value, builder.getInt64Ty()), builder.getInt(scale)));
+    for (const std::uint64_t which : elements) {
+      builder.SetInsertPoint(&call);
+      llvm::Value* const chosen = builder.CreateICmpEQ(number, builder.getInt64(which));
+      auto* one = llvm::cast<llvm::CallInst>(call.clone());
+      one->insertBefore(llvm::SplitBlockAndInsertIfThen(chosen, call.getIterator(), false));
+      builder.SetInsertPoint(one);
+      one->setArgOperand(
+          0, builder.CreateConstInBoundsGEP1_64(builder.getInt8Ty(), const_cast<llvm::Value*>(object), which));
+      lower_access(*one);
+    }
+    finished_.push_back(&call);
+    return true;
+  }
+
   void lower_access(llvm::CallInst& call) {
+    if (name_of(call).starts_with("__epiline_stream_") && expand_choice(call)) return;
     if (name_of(call) == "__epiline_stream_write") {
       write(call, port_of(call), call.getArgOperand(1), payload_type(call, 2));
     } else if (name_of(call) == "__epiline_stream_read") {
