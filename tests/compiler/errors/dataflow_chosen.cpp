@@ -1,6 +1,9 @@
 #include "hls_stream.h"
 
-static void copy(hls::stream<int>& in, hls::stream<int>& out) { out.write(in.read()); }  // refused: is both read and written
+// One call that may be any of several processes.
+static void copy(hls::stream<int>& in, hls::stream<int>& out) {
+  out.write(in.read());  // refused: is both read and written
+}
 
 void dataflow_chosen(hls::stream<int>& in, hls::stream<int>& out, unsigned count) {
 #pragma HLS DATAFLOW

@@ -1,8 +1,11 @@
-#include "ap_int.h"
 #include "hls_stream.h"
 
-void stream_chosen(hls::stream<int>& a, hls::stream<int>& b, hls::stream<int>& out) {
-  const int x = a.read();
-  hls::stream<int>& chosen = (x & 1) ? a : b;
-  out.write(chosen.read());  // refused: stream
+// A stream behind a pointer that only a run tells.
+void stream_chosen(hls::stream<int>& in, hls::stream<int>& left, hls::stream<int>& right) {
+  hls::stream<int>* to = &left;
+  for (int i = 0; i < 9; ++i) {
+    const int value = in.read();
+    if (value & 1) to = to == &left ? &right : &left;
+    to->write(value);  // refused: chosen at run time
+  }
 }
