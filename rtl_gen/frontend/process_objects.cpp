@@ -64,6 +64,7 @@ class pointer_walk {
       return;
     }
     if (is_named(call, "__epiline_stream_write")) return;
+    if (is_named(call, "__epiline_stream_") && call.getArgOperand(0) == pointer) return;  // a stream in an object
     const llvm::Function* callee = call.getCalledFunction();
     if (callee == nullptr || callee->isDeclaration()) return note_write(call);
     for (unsigned i = 0; i < call.arg_size() && i < callee->arg_size(); ++i)

@@ -11,6 +11,7 @@
 #include <llvm/Transforms/Utils/Cloning.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include "frontend/checks.hpp"
@@ -52,6 +53,59 @@ const llvm::DICompositeType* stream_type(const llvm::DIType* type, bool behind_r
   return nullptr;
 }
 
+/// A stream in a variable: the variable itself, an element or a member of it.
+struct placed_stream {
+  std::uint64_t offset = 0;  // in bytes
+  std::uint64_t array = 0;   // that of the first one of the innermost array it is in, or its own
+  const llvm::DICompositeType* type = nullptr;
+  std::string name;
+};
+
+/// Appends the streams that a type at `offset` holds. `array`, if there is one, is where the array around it begins.
+void find_streams_in(const llvm::DIType* type, std::uint64_t offset, std::optional<std::uint64_t> array,
+                     const std::string& name, std::vector<placed_stream>& found) {
+  while (const auto* derived = llvm::dyn_cast_or_null<llvm::DIDerivedType>(type)) {
+    if (derived->getTag() != llvm::dwarf::DW_TAG_typedef && derived->getTag() != llvm::dwarf::DW_TAG_const_type) return;
+    type = derived->getBaseType();
+  }
+  const auto* composite = llvm::dyn_cast_or_null<llvm::DICompositeType>(type);
+  if (composite == nullptr) return;
+  if (composite->getTag() == llvm::dwarf::DW_TAG_array_type) {
+    const std::uint64_t size = composite->getBaseType()->getSizeInBits() / 8;
+    for (std::uint64_t i = 0; size != 0 && i < composite->getSizeInBits() / 8 / size; ++i) {
+      find_streams_in(composite->getBaseType(), offset + i * size, array.value_or(offset),
+                      fmt::format("{}_{}", name, i), found);
+      if (found.empty()) return;  // the other elements hold none either
+    }
+  } else if (stream_type(composite, false) != nullptr) {
+    found.push_back({offset, array.value_or(offset), composite, name});
+  } else {
+    for (const llvm::DINode* element : composite->getElements()) {
+      const auto* member = llvm::dyn_cast<llvm::DIDerivedType>(element);
+      if (member == nullptr || member->isStaticMember()) continue;
+      const bool is_base = member->getTag() == llvm::dwarf::DW_TAG_inheritance;
+      if (is_base || member->getTag() == llvm::dwarf::DW_TAG_member)
+        find_streams_in(member->getBaseType(), offset + member->getOffsetInBits() / 8, {},
+                        is_base ? name : name + "_" + member->getName().str(), found);
+    }
+  }
+}
+
+std::vector<placed_stream> streams_in(const llvm::DIType* type, const std::string& name = "") {
+  std::vector<placed_stream> found;
+  find_streams_in(type, 0, {}, name, found);
+  return found;
+}
+
+/// Whether a parameter's type is, refers to or holds streams.
+bool brings_streams(const llvm::DIType* type) {
+  if (stream_type(type, true) != nullptr) return true;
+  const auto* derived = llvm::dyn_cast_or_null<llvm::DIDerivedType>(type);
+  const bool refers = derived != nullptr && (derived->getTag() == llvm::dwarf::DW_TAG_reference_type ||
+                                             derived->getTag() == llvm::dwarf::DW_TAG_pointer_type);
+  return refers && !streams_in(derived->getBaseType()).empty();
+}
+
 /// DEPTH of hls::stream<T, DEPTH>; 0 without.
 unsigned depth_of(const llvm::DICompositeType& type) {
   llvm::StringRef last = type.getName().rsplit(',').second.trim();
@@ -67,7 +121,7 @@ bool takes_streams(const llvm::Function& function) {
     return false;
   const llvm::DITypeRefArray types = program->getType()->getTypeArray();
   for (unsigned i = 1; i < types.size(); ++i)
-    if (types[i] != nullptr && !types[i]->isArtificial() && stream_type(types[i], true) != nullptr) return true;
+    if (types[i] != nullptr && !types[i]->isArtificial() && brings_streams(types[i])) return true;
   return false;
 }
 
@@ -158,7 +212,9 @@ class splitter {
   struct stream_object {
     llvm::Value* object;
     const llvm::DIVariable* variable;
-    std::vector<std::size_t> numbers;  // of its streams
+    std::vector<placed_stream> streams;
+    std::vector<std::size_t> numbers;  // of these streams, one by one
+    bool is_pure = true;               // it is nothing else than streams
   };
 
   // ---- what the processes are ---------------------------------------------------------------------------------------
@@ -206,7 +262,7 @@ class splitter {
     for (const llvm::Function* function : region_)
       for (const llvm::Instruction& instruction : llvm::instructions(*function))
         for (const llvm::DbgVariableRecord& record : llvm::filterDbgVars(instruction.getDbgRecordRange()))
-          if (stream_type(record.getVariable()->getType(), false) != nullptr) declared_.insert(record.getVariable());
+          if (!streams_in(record.getVariable()->getType()).empty()) declared_.insert(record.getVariable());
   }
 
   /// Inlines all but the processes; false when one function without internal streams is left: an ordinary top.
@@ -297,35 +353,36 @@ class splitter {
       for (const llvm::DbgVariableRecord& record : llvm::filterDbgVars(instruction.getDbgRecordRange())) {
         if (!record.isAddressOfVariable()) continue;
         auto* slot = llvm::dyn_cast_or_null<llvm::AllocaInst>(record.getVariableLocationOp(0));
-        if (slot != nullptr) add_streams(*slot, slot->getAllocatedType(), *record.getVariable(), false);
+        if (slot != nullptr) add_streams(*slot, *record.getVariable(), false);
       }
     for (llvm::GlobalVariable& variable : module_.globals()) {
       llvm::SmallVector<llvm::DIGlobalVariableExpression*, 1> described;
       variable.getDebugInfo(described);
       if (!variable.isDeclaration() && !variable.use_empty() && !described.empty())
-        add_streams(variable, variable.getValueType(), *described.front()->getVariable(), true);
+        add_streams(variable, *described.front()->getVariable(), true);
     }
   }
 
-  void add_streams(llvm::Value& object, llvm::Type* type, const llvm::DIVariable& variable, bool is_static) {
-    const llvm::DICompositeType* stream = stream_type(variable.getType(), false);
+  void add_streams(llvm::Value& object, const llvm::DIVariable& variable, bool is_static) {
+    std::vector<placed_stream> streams = streams_in(variable.getType(), variable.getName().str());
     const bool known = std::any_of(objects_.begin(), objects_.end(),
                                    [&](const stream_object& other) { return other.object == &object; });
-    if (stream == nullptr || known) return;
-    const std::uint64_t count = module_.getDataLayout().getTypeAllocSize(type);  // a stream is a class without members
-    const unsigned given = depth_of(*stream);
-    objects_.push_back({&object, &variable, {}});
-    for (std::uint64_t i = 0; i < count; ++i) {
-      objects_.back().numbers.push_back(result_.streams.size());
-      const std::string name = variable.getName().str();
-      result_.streams.push_back({fresh(count == 1 ? name : fmt::format("{}_{}", name, i), stream_names_),
-                                 given == 0 ? default_depth : given, given != 0, is_static, place_of(variable)});
+    if (streams.empty() || known) return;
+    std::vector<std::size_t> numbers;
+    for (const placed_stream& stream : streams) {
+      const unsigned given = depth_of(*stream.type);
+      numbers.push_back(result_.streams.size());
+      result_.streams.push_back({fresh(stream.name, stream_names_), given == 0 ? default_depth : given, given != 0,
+                                 is_static, place_of(variable)});
     }
+    objects_.push_back(
+        {&object, &variable, std::move(streams), numbers, stream_type(variable.getType(), false) != nullptr});
   }
 
   [[nodiscard]] std::set<const llvm::Value*> stream_objects() const {
     std::set<const llvm::Value*> all;
-    for (const stream_object& object : objects_) all.insert(object.object);
+    for (const stream_object& object : objects_)
+      if (object.is_pure) all.insert(object.object);
     return all;
   }
 
@@ -366,7 +423,8 @@ class splitter {
                           place.file, place.line));
       } else {
         for (std::size_t i = 0; i < found->numbers.size(); ++i)
-          if (offset == 0 || offset == i) {  // the name of an array speaks of all its streams
+          // The name of an array speaks of all its streams.
+          if (offset == found->streams[i].array || offset == found->streams[i].offset) {
             result_.streams[found->numbers[i]].depth = static_cast<unsigned>(depth->getZExtValue());
             result_.streams[found->numbers[i]].depth_given = true;
           }
@@ -382,10 +440,10 @@ class splitter {
     return program != nullptr ? program->getName().str() : readable_name(function);
   }
 
-  /// stage<3> as an identifier: stage_3.
+  /// As an identifier, without template arguments.
   static std::string identifier(const std::string& text) {
     std::string name;
-    for (const char c : text)
+    for (const char c : llvm::StringRef(text).take_until([](char c) { return c == '<'; }))
       if (llvm::isAlnum(c))
         name += c;
       else if (!name.empty() && name.back() != '_')
@@ -403,8 +461,9 @@ class splitter {
     llvm::cast<llvm::Function>(mark.getCallee())->setDoesNotThrow();
     for (const stream_object& object : objects_)
       for (std::size_t i = 0; i < object.numbers.size(); ++i)
-        builder.CreateCall(mark, {builder.getInt32(static_cast<std::uint32_t>(object.numbers[i])),
-                                  builder.CreateConstInBoundsGEP1_64(builder.getInt8Ty(), object.object, i)});
+        builder.CreateCall(
+            mark, {builder.getInt32(static_cast<std::uint32_t>(object.numbers[i])),
+                   builder.CreateConstInBoundsGEP1_64(builder.getInt8Ty(), object.object, object.streams[i].offset)});
   }
 
   /// The process that writes a result: the variable behind it is the one that begins unwritten.
