@@ -63,7 +63,8 @@ class color_sad {
     }
     const auto entering = differences(pixels_.left, pixels_.right, entering_right_, at);
     const auto leaving = differences(pixels_.oldest_left, pixels_.oldest_right, leaving_right_, at);
-    return rows_.step(columns_.step(entering, leaving, at.column, at.group));
+    // The first row is above all windows of the frame: nobody looks at its sums.
+    return rows_.step(columns_.step(entering, leaving, at.column, at.group), at.column.first_row);
   }
 
  private:

@@ -17,8 +17,8 @@ namespace epiline::kernels {
 /// Border policy: outside columns are 0, which the caller provides by at least r columns of 0 between two rows.
 /// State: the columns that are still inside the window or wait to leave it, and the running sum. Invariant: the sum
 /// equals the sum of its columns. It holds at zero and no step breaks it, so nothing is to be reset between rows or
-/// frames; an object must start zeroed (static, or T{}). With several groups of levels the columns wait so long that
-/// RAM may take them (level_delay).
+/// frames; an object must start zeroed (static, or T{}), or with a row of `restart`. With several groups of levels the
+/// columns wait so long that RAM may take them (level_delay).
 ///
 /// Config: levels, parallel_disparities, pixels_per_beat. Window: radius, largest_difference of two pixels, delay_beats
 /// (at least the beats of the radius; more of them line the result up with that of a wider window).
@@ -37,8 +37,14 @@ class row_sum {
   using cost_t = ap_uint<window::bits_for(window_columns* window_columns* Window::largest_difference)>;
   using costs = level_array<cost_t, lanes, levels>;
 
-  costs step(const column_beat& newest) {
+  /// `restart` during a whole row makes the state agree with itself, whatever it was: the results of that row and what
+  /// it leaves in the window are 0.
+  costs step(const column_beat& wanted, bool restart = false) {
 #pragma HLS INLINE
+    column_beat newest;
+    for (int lane = 0; lane < lanes; ++lane) {
+      for (int d = 0; d < levels; ++d) newest.at[lane][d] = restart ? column_t(0) : wanted.at[lane][d];
+    }
     if constexpr (groups > 1) {  // one lane
       entering_ = waiting_.step(newest);
       leaving_ = inside_.step(newest);
@@ -55,7 +61,7 @@ class row_sum {
       }
     }
     move_groups_on(sum_);
-    for (int d = 0; d < levels; ++d) sum_[0][d] = result.at[lanes - 1][d];
+    for (int d = 0; d < levels; ++d) sum_[0][d] = restart ? cost_t(0) : result.at[lanes - 1][d];
 
     if constexpr (groups == 1) {
       for (int k = history - 1; k >= lanes; --k) {

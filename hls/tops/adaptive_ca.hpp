@@ -70,7 +70,8 @@ void adaptive_ca_frame(hls::stream<typename adaptive_ca_interface<Config>::video
   constexpr int lanes = Config::pixels_per_beat;
   constexpr int radius = sad::window_radius;
 
-  // State lives on from frame to frame: calls follow one another without a bubble, and nothing needs a reset.
+  // State lives on from frame to frame: calls follow one another without a bubble. What a frame writes before it reads
+  // it needs no reset, which would cost wires; running sums must agree with what they are sums of, from the start.
   static rows lines;
   static typename rows::columns columns;
   static variation_t variation;
@@ -81,6 +82,13 @@ void adaptive_ca_frame(hls::stream<typename adaptive_ca_interface<Config>::video
   static window::row_window<disparity_pixel, lanes, schedule::padding_beats * lanes - sad::delay_columns + lanes>
       winners;
   static filter_t filter;
+#pragma HLS RESET variable = lines off
+#pragma HLS RESET variable = columns off
+#pragma HLS RESET variable = variation off
+#pragma HLS RESET variable = choice off
+#pragma HLS RESET variable = choice_a_beat_ago off
+#pragma HLS RESET variable = best off
+#pragma HLS RESET variable = winners off
 
   const typename frame_raster::beats_t beats = (width + (lanes - 1)) / lanes;
   frame_raster raster(beats, height);

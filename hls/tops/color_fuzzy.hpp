@@ -67,13 +67,20 @@ void color_fuzzy_frame(hls::stream<typename color_fuzzy_interface<Config>::video
   using sad = color_sad<Config>;
   constexpr int lanes = Config::pixels_per_beat;
 
-  // State lives on from frame to frame: calls follow one another without a bubble, and nothing needs a reset.
+  // State lives on from frame to frame: calls follow one another without a bubble. A frame writes it before it reads it,
+  // so it needs no reset, which would cost wires all over the device.
   static sad matcher;
   static best_of_groups<Config, typename sad::cost_t> best;
   static uniqueness_check<Config> unique;
   static left_right_check<Config> agreement;
   static fuzzy_filter<Config> first_pass;
   static fuzzy_filter<Config> second_pass;
+#pragma HLS RESET variable = matcher off
+#pragma HLS RESET variable = best off
+#pragma HLS RESET variable = unique off
+#pragma HLS RESET variable = agreement off
+#pragma HLS RESET variable = first_pass off
+#pragma HLS RESET variable = second_pass off
 
   const typename frame_raster::beats_t beats = (width + (lanes - 1)) / lanes;
   frame_raster raster(beats, height);

@@ -81,7 +81,8 @@ struct node {
 struct register_state {
   std::string name;
   unsigned width = 1;
-  std::optional<llvm::APInt> initial;  // value after reset; empty: unspecified (interpreter: 0)
+  std::optional<llvm::APInt> initial;  // value at power-up; empty: unspecified (interpreter: 0)
+  bool resets = true;                  // a reset brings `initial` back (#pragma HLS RESET off: only power-up does)
   node_id next = none;
   node_id enable = none;  // a 1-bit node
   /// Every update of this register happens in an iteration that `graph::patient` marks: the next iteration is issued

@@ -79,7 +79,7 @@ class printer {
 
   void print_register(const register_state& r) {
     put("register {} {}", quoted(r.name), r.width);
-    if (r.initial) put(" initial {}", hex(*r.initial));
+    if (r.initial) put(" initial {}{}", hex(*r.initial), r.resets ? "" : " unreset");
     put(" next %{} enable %{}", r.next, r.enable);
     if (r.patient) put(" patient");
     end_line(r.where);
@@ -187,6 +187,7 @@ class parser {
     if (line.take("initial")) {
       count_bits(line, r.width);
       r.initial = line.need_value(r.width);
+      r.resets = !line.take("unreset");
     }
     line.need("next");
     r.next = line.need_node();

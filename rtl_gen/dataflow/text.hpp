@@ -9,6 +9,7 @@
 //   output result "total" 16
 //     field "total" "tdata" 16
 //   register "acc" 16 initial 0x0 next %4 enable %0 @0:5       ; register 0; `patient` may follow the enable
+//                                          (`unreset` after the initial value: a reset does not bring it back)
 //   memory "ram" 4 words 16 distance 2 promised @0:6           ; 4 words of 16 bits; `distance N` only when not 1
 //     words 0x1 0x2 0x3 0x4
 //   table "rom" 8

@@ -393,6 +393,7 @@ class splitter {
     dynamic_.clear();
     partitioned_.clear();
     distances_.clear();
+    unreset_.clear();
     scalars_.clear();
     objects_.clear();
     for (const auto& [path, call] : collected.pragmas) apply_pragma(path, *call);
@@ -410,18 +411,33 @@ class splitter {
   enum class role : std::uint8_t { constant, multiplexed, address };
 
   void apply_pragma(const path_steps& path, llvm::CallInst& call) {
-    const bool is_dependence = call.getCalledFunction()->getName() == "__epiline_pragma_dependence";
+    const llvm::StringRef pragma = call.getCalledFunction()->getName();
+    const bool is_dependence = pragma == "__epiline_pragma_dependence";
     // A pointer to an array may have decayed to one to its first element; the pragma speaks of the whole.
     std::size_t length = path.size();
     while (length > 0 && path[length - 1].is_array() && path[length - 1].constant == 0 &&
            path[length - 1].dynamic == nullptr)
       --length;
     const std::string shape = shape_of(path, length);
+    if (pragma == "__epiline_pragma_reset") {
+      if (variable_->initial == nullptr)
+        refuse(place_of(call),
+               fmt::format("#pragma HLS RESET off: '{}' is not static, so nothing resets it: remove the pragma",
+                           variable_->name));
+      unreset_.push_back(shape);
+      return;
+    }
     const int value = pragma_number(call, 1, is_dependence ? 1 : 0);
     if (is_dependence)
       distances_.emplace_back(shape, static_cast<unsigned>(value));
     else
       partition(path, length, shape, static_cast<unsigned>(value), call);
+  }
+
+  [[nodiscard]] bool is_unreset(const path_steps& path) const {
+    const std::string shape = shape_of(path, path.size());
+    return std::any_of(unreset_.begin(), unreset_.end(),
+                       [&](const std::string& prefix) { return llvm::StringRef(shape).starts_with(prefix); });
   }
 
   void partition(const path_steps& path, std::size_t length, const std::string& shape, unsigned dimension,
@@ -638,7 +654,9 @@ class splitter {
       made.push_back(slot);
       if (variable_->initial != nullptr) {
         builder.SetInsertPoint(entry.getTerminator());
-        builder.CreateStore(path.empty() ? variable_->initial : initial_at(path), slot);
+        llvm::Constant* const initial = path.empty() ? variable_->initial : initial_at(path);
+        const bool resets = !is_unreset(path) || !llvm::isa<llvm::ConstantInt>(initial);
+        builder.CreateStore(resets ? static_cast<llvm::Value*>(initial) : make_power_up(builder, initial), slot);
       }
     }
     return slot;
@@ -710,6 +728,7 @@ class splitter {
   std::set<std::string> dynamic_;
   std::vector<std::pair<std::string, unsigned>> partitioned_;
   std::vector<std::pair<std::string, unsigned>> distances_;
+  std::vector<std::string> unreset_;
   std::map<std::string, llvm::AllocaInst*> scalars_;
   std::map<std::string, unsigned> objects_;
 };

@@ -376,7 +376,9 @@ class graph_builder {
     }
     if (next == nullptr || !is_pure(*entry)) return;
     for (const llvm::PHINode& phi : next->phis())
-      if (!llvm::isa<llvm::Constant>(phi.getIncomingValueForBlock(last))) return;
+      if (const llvm::Value* value = phi.getIncomingValueForBlock(last);
+          !llvm::isa<llvm::Constant>(value) && power_up_value(value) == nullptr)
+        return;
     for (const Instruction* value : live_[steps_.cut_number.at(next)])
       if (!is_cut_phi(value) || value->getParent() != next) return;
     start_ = next;
@@ -984,8 +986,13 @@ class graph_builder {
     for (const llvm::PHINode& phi : start_->phis()) {
       const auto found = register_of_.find(&phi);
       if (found == register_of_.end()) continue;
-      if (const auto* value = llvm::dyn_cast<llvm::ConstantInt>(phi.getIncomingValueForBlock(start_predecessor_)))
-        graph_.registers[found->second].initial = value->getValue();
+      const llvm::Value* value = phi.getIncomingValueForBlock(start_predecessor_);
+      dataflow::register_state& state = graph_.registers[found->second];
+      if (const llvm::Constant* at_power_up = power_up_value(value)) {
+        value = at_power_up;
+        state.resets = false;
+      }
+      if (const auto* number = llvm::dyn_cast<llvm::ConstantInt>(value)) state.initial = number->getValue();
     }
   }
 

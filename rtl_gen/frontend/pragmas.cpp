@@ -93,6 +93,15 @@ std::string dependence_call(const pragma_line& pragma, const source_place& place
   return fmt::format("__epiline_pragma_dependence((const void*)&({}), {});", variable, distance);
 }
 
+/// Vendors' `RESET variable=x` asks for a reset, which every static variable has here; `off` takes it away.
+std::string reset_call(const pragma_line& pragma, const source_place& place) {
+  const std::string variable = pragma.get("variable");
+  check_options(pragma, {"variable", "off"}, place);
+  if (variable.empty()) refuse(place, "#pragma HLS RESET without variable=NAME: name the static variable");
+  if (!pragma.has("off")) return fmt::format("(void)sizeof({});", variable);
+  return fmt::format("__epiline_pragma_reset((const void*)&({}));", variable);
+}
+
 std::string partition_call(const pragma_line& pragma, const source_place& place, std::vector<std::string>& notes) {
   const std::string variable = pragma.get("variable");
   check_options(pragma, {"variable", "type", "complete", "cyclic", "block", "factor", "dim"}, place);
@@ -142,6 +151,7 @@ std::string replacement(const pragma_line& pragma, const source_place& place, st
     return "__epiline_pragma_unroll();";
   }
   if (pragma.name == "dependence") return dependence_call(pragma, place);
+  if (pragma.name == "reset") return reset_call(pragma, place);
   if (pragma.name == "array_partition") return partition_call(pragma, place, notes);
   if (pragma.name == "interface") {
     check_interface(pragma, place);
@@ -162,9 +172,9 @@ std::string replacement(const pragma_line& pragma, const source_place& place, st
   }
   // What these ask for is what this flow always does (everything is inlined and pipelined, trees are balanced, loop
   // nests are flattened), or they only inform.
-  static const char* const natural[] = {
-      "inline",    "loop_tripcount", "loop_flatten", "expression_balance", "latency",    "aggregate", "disaggregate",
-      "data_pack", "reset",          "top",          "protocol",           "performance"};
+  static const char* const natural[] = {"inline",  "loop_tripcount", "loop_flatten", "expression_balance",
+                                        "latency", "aggregate",      "disaggregate", "data_pack",
+                                        "top",     "protocol",       "performance"};
   for (const char* name : natural)
     if (pragma.name == name) return "";
   static const char* const advisory[] = {"bind_storage",  "bind_op",    "resource",
@@ -207,6 +217,7 @@ pragma_rewrite rewrite_pragmas(const std::string& preprocessed) {
       "extern \"C\" void __epiline_pragma_pipeline(int) noexcept; extern \"C\" void __epiline_pragma_unroll() "
       "noexcept; "
       "extern \"C\" void __epiline_pragma_dependence(const void*, int) noexcept; "
+      "extern \"C\" void __epiline_pragma_reset(const void*) noexcept; "
       "extern \"C\" void __epiline_pragma_partition(const void*, int) noexcept; "
       "extern \"C\" void __epiline_pragma_dataflow() noexcept; "
       "extern \"C\" void __epiline_pragma_stream(const void*, long) noexcept;\n";

@@ -6,6 +6,8 @@
 //   iN   epiline.memory.read.iN(i32 memory, i64 address)
 //   void epiline.memory.write.iN(i32 memory, i64 address, iN data, i1 enable)
 //   iN   epiline.table.iN(i32 table, i64 address)
+// No access, and known by another name: a register's initial value that no reset brings back (#pragma HLS RESET off).
+//   iN   epiline.power_up.iN(iN value)
 
 #include <fmt/format.h>
 #include <llvm/IR/IRBuilder.h>
@@ -46,6 +48,30 @@ inline access access_of(const llvm::Instruction& instruction) {
   for (const access kind : {access::read, access::write, access::memory_read, access::memory_write, access::table})
     if (name.starts_with(prefix_of(kind))) return kind;
   return access::none;
+}
+
+inline constexpr const char* power_up_prefix = "epiline.power_up.";
+
+/// `value`, hidden in a call that says: at power-up only.
+inline llvm::CallInst* make_power_up(llvm::IRBuilderBase& builder, llvm::Constant* value) {
+  llvm::Module& module = *builder.GetInsertBlock()->getModule();
+  llvm::Type* const type = value->getType();
+  const std::string name = fmt::format("{}i{}", power_up_prefix, type->getIntegerBitWidth());
+  llvm::FunctionCallee callee = module.getOrInsertFunction(name, llvm::FunctionType::get(type, {type}, false));
+  auto* function = llvm::cast<llvm::Function>(callee.getCallee());
+  function->setDoesNotThrow();
+  function->setWillReturn();
+  function->setDoesNotAccessMemory();
+  return builder.CreateCall(callee, {value});
+}
+
+/// The value in a call of make_power_up; null for everything else.
+inline const llvm::Constant* power_up_value(const llvm::Value* value) {
+  const auto* call = llvm::dyn_cast<llvm::CallInst>(value);
+  if (call == nullptr || call->getCalledFunction() == nullptr ||
+      !call->getCalledFunction()->getName().starts_with(power_up_prefix))
+    return nullptr;
+  return llvm::cast<llvm::Constant>(call->getArgOperand(0));
 }
 
 /// The port, memory or table an access speaks of.

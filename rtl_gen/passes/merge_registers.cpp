@@ -22,7 +22,7 @@ class numbering {
     for (register_id r = 0; r < g.registers.size(); ++r) {
       const auto& state = g.registers[r];
       // One without an initial value must not stand for one that has it: hardware would not reset it.
-      std::vector<std::uint64_t> key = {state.width, state.patient, state.initial.has_value()};
+      std::vector<std::uint64_t> key = {state.width, state.patient, state.initial.has_value(), state.resets};
       if (state.initial)
         key.insert(key.end(), state.initial->getRawData(), state.initial->getRawData() + state.initial->getNumWords());
       class_of_[r] = classes.try_emplace(std::move(key), static_cast<std::uint32_t>(classes.size())).first->second;

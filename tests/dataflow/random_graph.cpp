@@ -122,6 +122,7 @@ class generator {
       r.name = "r" + std::to_string(i);
       r.width = any_width();
       if (pick(4) != 0) r.initial = random_value(random_, r.width);
+      r.resets = !r.initial || pick(8) != 0;
       make(operation::register_value, r.width, {}, i);
       g_.registers.push_back(std::move(r));
     }

@@ -33,8 +33,8 @@ void expect_same(const graph& a, const graph& b) {
   ASSERT_EQ(a.registers.size(), b.registers.size());
   for (std::size_t i = 0; i < a.registers.size(); ++i) {
     const register_state &r = a.registers[i], &s = b.registers[i];
-    EXPECT_EQ(std::tie(r.name, r.width, r.initial, r.next, r.enable, r.patient),
-              std::tie(s.name, s.width, s.initial, s.next, s.enable, s.patient));
+    EXPECT_EQ(std::tie(r.name, r.width, r.initial, r.resets, r.next, r.enable, r.patient),
+              std::tie(s.name, s.width, s.initial, s.resets, s.next, s.enable, s.patient));
     EXPECT_EQ(members(r.where), members(s.where));
   }
   ASSERT_EQ(a.memories.size(), b.memories.size());

@@ -48,6 +48,8 @@ TEST(pragmas, that_are_honoured_become_calls) {
       {"#pragma HLS DEPENDENCE variable=ram type=inter distance=shortest true",
        "__epiline_pragma_dependence((const void*)&(ram), shortest);"},
       {"#pragma HLS DEPENDENCE variable=ram intra false", ""},
+      {"#pragma HLS RESET variable=x off", "__epiline_pragma_reset((const void*)&(x));"},
+      {"#pragma HLS reset variable=x", "(void)sizeof(x);"},
       {"#pragma HLS DATAFLOW", "__epiline_pragma_dataflow();"},
       {"#pragma HLS dataflow disable_start_propagation", "__epiline_pragma_dataflow();"},
       {"#pragma HLS STREAM variable = fifo depth = 16", "__epiline_pragma_stream((const void*)&(fifo), 16);"},
