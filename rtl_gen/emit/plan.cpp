@@ -97,11 +97,18 @@ void plan_memories(const graph& g, const schedule::delay_model& model, const sch
   }
 }
 
+/// Whether the condition under which a register is updated in `stage` is in flip-flops a stage earlier.
+bool has_update_bit(const graph& g, const schedule::result& s, node_id condition, int stage) {
+  return g.nodes[condition].kind != operation::constant && s.stage[condition] != settled && stage >= 2 &&
+         s.available[condition] < stage - 1;
+}
+
 void plan_waits(const graph& g, const schedule::delay_model& model, const schedule::result& s,
                 const delay_line_limits& limits, plan& p) {
   std::vector<std::vector<int>> taps(g.nodes.size());
   for (const schedule::use& u : schedule::uses(g, s)) {
-    if (u.stage > s.available[u.value]) taps[u.value].push_back(u.stage);
+    const bool early = u.enables != none && has_update_bit(g, s, u.value, u.stage);
+    if (u.stage > s.available[u.value]) taps[u.value].push_back(early ? u.stage - 1 : u.stage);
   }
   const bool has_distributed = model.parameters().distributed_max_words > 0;
   std::map<std::pair<int, int>, std::vector<node_id>> long_waits;
@@ -172,14 +179,27 @@ copies divide_readers(std::vector<std::pair<schedule::reader, double>>& readers,
 /// Copies of flip-flops with many readers. The stage before feeds every copy, and has copies for that where needed.
 void plan_copies(const graph& g, const schedule::delay_model& model, const schedule::result& s, plan& p) {
   const unsigned most = model.parameters().most_readers;
+  const unsigned most_enabled = model.parameters().most_enabled;
   constexpr unsigned widest = 64;  // wider values are parts side by side, each with few readers
   using readers = std::vector<std::pair<schedule::reader, double>>;
-  std::map<std::pair<node_id, int>, readers> of_value;
+  std::map<std::pair<node_id, int>, readers> of_value, of_condition;
   const auto count = static_cast<schedule::reader>(g.nodes.size());
   for (const schedule::load& l : schedule::find_loads(g, model)) {
     const int stage = l.by < count ? s.stage[l.by] : s.register_update[l.by - count];
     if (s.stage[l.value] == settled || stage == settled || stage <= s.available[l.value]) continue;
-    if (g.nodes[l.value].width <= widest) of_value[{l.value, stage}].emplace_back(l.by, l.inputs);
+    const bool is_condition = l.enables && has_update_bit(g, s, l.value, stage);
+    if (g.nodes[l.value].width <= widest)
+      (is_condition ? of_condition : of_value)[{l.value, stage}].emplace_back(l.by, l.inputs);
+  }
+  std::vector<readers> of_valid(p.last_valid + 1);
+  for (auto& [place, here] : of_condition) {
+    const copies divided = divide_readers(here, most_enabled);
+    for (const schedule::reader by : divided.first_reader) {
+      of_value[{place.first, place.second - 1}].emplace_back(by, 1);
+      of_valid[place.second - 1].emplace_back(by, 1);
+    }
+    p.spare_bits += divided.count();
+    p.update_bits[place] = divided;
   }
   for (node_id id = 0; id < count; ++id) {
     if (g.nodes[id].width > widest) continue;
@@ -197,10 +217,20 @@ void plan_copies(const graph& g, const schedule::delay_model& model, const sched
       }
     }
   }
+  readers of_reset, of_early_reset;
+  for (dataflow::register_id r = 0; r < g.registers.size(); ++r)
+    if (s.register_stage[r] != settled && is_reset(g, s, r)) of_reset.emplace_back(count + r, g.registers[r].width);
+  p.reset_copies = divide_readers(of_reset, model.parameters().most_reset);
+  if (p.has_reset_rows()) {
+    for (const schedule::reader by : p.reset_copies.first_reader) of_early_reset.emplace_back(by, 1);
+    p.early_reset_copies = divide_readers(of_early_reset, most);
+    p.spare_bits += p.reset_copies.count() + p.early_reset_copies.count();
+  }
   // Valid bits enable the state.
-  std::vector<readers> of_valid(p.last_valid + 1);
   for (dataflow::register_id r = 0; r < g.registers.size(); ++r) {
-    of_valid[s.register_update[r]].emplace_back(count + r, g.registers[r].width);
+    const int stage = s.register_update[r];
+    if (has_update_bit(g, s, g.registers[r].enable, stage)) continue;
+    of_valid[stage].emplace_back(count + r, g.registers[r].width);
   }
   p.valid_copies.assign(p.last_valid + 1, copies{{0}});
   for (int stage = p.last_valid; stage >= 1; --stage) {
@@ -213,6 +243,10 @@ void plan_copies(const graph& g, const schedule::delay_model& model, const sched
 }
 
 }  // namespace
+
+bool is_reset(const graph& g, const schedule::result& s, dataflow::register_id r) {
+  return g.registers[r].initial && (g.registers[r].resets || s.register_stage[r] == settled);
+}
 
 std::size_t copies::of(schedule::reader by) const {
   const auto next = std::upper_bound(first_reader.begin(), first_reader.end(), by);

@@ -73,6 +73,10 @@ struct copies {
   [[nodiscard]] std::size_t of(schedule::reader by) const;
 };
 
+/// Whether a reset brings back the initial value of register `r`. Settled values are reset even where the source wants
+/// none: they are few, and one of them has two flip-flops that must agree.
+[[nodiscard]] bool is_reset(const dataflow::graph& g, const schedule::result& s, dataflow::register_id r);
+
 struct plan {
   std::vector<std::vector<wait_step>> waits;  // per node
   std::vector<delay_line> lines;
@@ -81,8 +85,16 @@ struct plan {
   std::map<std::pair<dataflow::node_id, int>, copies> value_copies;  // of what waits in flip-flops, by value and stage
   std::vector<copies> valid_copies;                                  // per stage; stage 0 has none
   int last_valid = 1;                                                // the last stage that needs its valid bit
-  std::uint64_t copy_bits = 0;                                       // flip-flops of waiting values
-  std::uint64_t spare_bits = 0;    // flip-flops of value_copies and valid_copies beside the first ones
+  /// Bits that are 1 where a stage holds an iteration and a condition is true in it, by condition and stage: they are
+  /// the clock enables of the state that the condition updates. Made a stage earlier, wherever the condition is known
+  /// then: no gate stands between them and the enables.
+  std::map<std::pair<dataflow::node_id, int>, copies> update_bits;
+  /// Where much state is reset, the reset comes to it through two rows of flip-flops: the last one, and the one before.
+  copies reset_copies{{0}}, early_reset_copies{{0}};
+  std::uint64_t copy_bits = 0;   // flip-flops of waiting values
+  std::uint64_t spare_bits = 0;  // flip-flops of update_bits and resets, and of other copies beside the first ones
+
+  [[nodiscard]] bool has_reset_rows() const { return reset_copies.count() > 1; }
   std::uint64_t settled_bits = 0;  // flip-flops of settled values and of patient registers' next values
 };
 

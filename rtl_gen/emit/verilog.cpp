@@ -172,6 +172,9 @@ class writer {
   void write_outputs();
   void write_delay_pointers();
   void write_node(node_id id);
+  [[nodiscard]] std::string update_bit(node_id condition, int stage) const;
+  [[nodiscard]] std::string state_reset() const;
+  void write_reset_rows();
   void declare_register(register_id r);
   void collect_lines(node_id id, std::vector<dataflow::source_location>& lines) const;
 
@@ -190,9 +193,10 @@ class writer {
   std::unordered_set<std::string> taken_;
   std::map<std::string, unsigned, std::less<>> numbers_;
   std::vector<std::string> node_name_, register_name_, memory_name_, table_name_, port_name_, line_name_;
-  bool adds_or_subtracts_ = false;  // the module of that name is needed
-  bool has_copies_ = false;         // likewise
-  schedule::reader reader_ = 0;     // whose text is being written: decides which copy of a flip-flop it names
+  std::map<std::pair<node_id, int>, std::string> update_name_;  // of plan::update_bits
+  bool adds_or_subtracts_ = false;                              // the module of that name is needed
+  bool has_copies_ = false;                                     // likewise
+  schedule::reader reader_ = 0;  // whose text is being written: decides which copy of a flip-flop it names
   std::vector<char> inlined_;
   std::vector<std::string> pending_name_;       // patient registers' next value
   std::vector<std::vector<node_id>> nodes_at_;  // per stage
@@ -229,10 +233,10 @@ std::string writer::fresh(std::string_view wanted) {
 }
 
 std::string writer::fresh_port(const std::string& wanted) {
-  constexpr const char* suffixes[] = {"_token",      "_spare", "_there",   "_spare_there", "_ready",
-                                      "_take",       "_push",  "_move",    "_fifo",        "_in",
-                                      "_out",        "_word",  "_left",    "_skipped",     "_load",
-                                      "_word_there", "_data",  "_credits", "_room",        "_credits_next"};
+  constexpr const char* suffixes[] = {"_token",   "_first", "_second",      "_fills_second", "_reads_second", "_there",
+                                      "_ready",   "_take",  "_push",        "_fifo",         "_in",           "_out",
+                                      "_word",    "_left",  "_skipped",     "_load",         "_word_there",   "_data",
+                                      "_credits", "_room",  "_credits_next"};
   constexpr const char* argument_suffixes[] = {"_registers", "_wanted", "_sample", "_start",
                                                "_hold",      "_keep",   "_slave"};
   std::vector<const char*> used(std::begin(suffixes), std::end(suffixes));
@@ -256,7 +260,8 @@ void writer::reserve_interface() {
           fmt::format("argument '{}' cannot have that name in Verilog: rename it", argument.name));
     }
   }
-  for (const char* name : {"fire", "running", "valid", "hold", "holding", "commit"}) {
+  for (const char* name :
+       {"fire", "running", "valid", "hold", "holding", "commit", "state_reset", "early_state_reset"}) {
     if (!taken_.insert(name).second) {
       throw std::invalid_argument(
           fmt::format("port signal '{}' has the name of a control signal of the module: rename it", name));
@@ -335,6 +340,8 @@ void writer::choose_names() {
     taken_.insert(node_name_[id] + "_q");
     taken_.insert(node_name_[id] + "_exact");
   }
+  for (const auto& [place, all] : plan_.update_bits)
+    update_name_[place] = fresh(fmt::format("{}_enable_{}", node_name_[place.first], place.second));
   for (const delay_line& l : plan_.lines) line_name_.push_back(fresh(fmt::format("wait_s{}_to_s{}_ram", l.from, l.to)));
 }
 
@@ -421,6 +428,38 @@ std::string writer::valid(int stage) const {
   if (stage == 0) return "fire";
   const std::size_t copy = plan_.valid_copies[stage].of(reader_);
   return copy == 0 ? fmt::format("valid[{}]", stage) : copy_name(fmt::format("valid_s{}", stage), copy);
+}
+
+std::string writer::update_bit(node_id condition, int stage) const {
+  const auto found = plan_.update_bits.find({condition, stage});
+  if (found == plan_.update_bits.end()) return "";
+  return copy_of(update_name_.at({condition, stage}), found->second);
+}
+
+/// The reset of state: a clock or two later than that of valid bits and handshakes, which keep iterations out
+/// meanwhile.
+std::string writer::state_reset() const {
+  return plan_.has_reset_rows() ? copy_of("state_reset", plan_.reset_copies) : "rst";
+}
+
+void writer::write_reset_rows() {
+  if (!plan_.has_reset_rows()) return;
+  title("reset of the state: through two rows of flip-flops, near what they reset");
+  const auto row = [&](const char* name, const copies& all, const auto& source) {
+    line("  reg {};", name);
+    std::string first;
+    for (std::size_t copy = 0; copy < all.count(); ++copy) {
+      reader_ = all.first_reader[copy];
+      if (copy > 0)
+        write_copy(copy_name(name, copy), 1, "1'b0", source());
+      else
+        first = source();
+    }
+    line("  always @(posedge clk) {} <= {};", name, first);
+  };
+  row("early_state_reset", plan_.early_reset_copies, [] { return std::string("rst"); });
+  row("state_reset", plan_.reset_copies, [&] { return copy_of("early_state_reset", plan_.early_reset_copies); });
+  reader_ = 0;
 }
 
 std::string writer::operand(node_id id, int stage) const {
@@ -596,7 +635,9 @@ void writer::write_inputs() {
       write_sampled_arguments(name);
       continue;
     }
-    title(fmt::format("input {}: two registers deep, so that tready comes from a flip-flop", port.name));
+    // Neither tready nor a clock enable of the tokens hangs on whether an iteration is issued: that is known last of
+    // all.
+    title(fmt::format("input {}: two registers, filled and read in turn", port.name));
     std::string token;
     for (std::size_t f = port.fields.size(); f-- > 0;) {
       if (!token.empty()) token += ", ";
@@ -604,29 +645,25 @@ void writer::write_inputs() {
     }
     if (port.fields.size() > 1) token = "{" + token + "}";
     const std::string range = range_of(port.width);
-    const std::string valid_in = signal_name(port, "tvalid");
-    const std::string ready = name + "_ready";
-    line("  reg {}{}_token, {}_spare;", range, name, name);
-    line("  reg {}_there, {}_spare_there, {};", name, name, ready);
+    line("  reg {0}{1}_first, {1}_second;", range, name);
+    line("  reg {0}_fills_second, {0}_reads_second;", name);
+    line("  reg {0}_there, {0}_ready;", name);
     line("  wire {}_take;", name);
-    line("  wire {}_push = {} & {};", name, valid_in, ready);
-    line("  wire {}_move = {}_take | ~{}_there;", name, name, name);
-    line("  assign {} = {};", signal_name(port, "tready"), ready);
+    line("  wire {0}_push = {1} & {0}_ready;", name, signal_name(port, "tvalid"));
+    line("  wire {0}{1}_token = {1}_reads_second ? {1}_second : {1}_first;", range, name);
+    line("  assign {} = {}_ready;", signal_name(port, "tready"), name);
     line("  always @(posedge clk) begin");
-    line("    if ({}_move) {}_token <= {}_spare_there ? {}_spare : {};", name, name, name, name, token);
-    line("    if ({}) {}_spare <= {};", ready, name, token);
-    line("    if ({}_move) begin", name);
-    line("      {}_there <= {}_spare_there | {}_push;", name, name, name);
-    line("      {}_spare_there <= 1'b0;", name);
-    line("      {} <= 1'b1;", ready);
-    line("    end else begin");
-    line("      {}_spare_there <= {}_spare_there | {}_push;", name, name, name);
-    line("      {} <= ~({}_spare_there | {}_push);", ready, name, name);
-    line("    end");
+    line("    if ({0}_ready & ~{0}_fills_second) {0}_first <= {1};", name, token);
+    line("    if ({0}_ready & {0}_fills_second) {0}_second <= {1};", name, token);
+    line("    {0}_fills_second <= {0}_fills_second ^ {0}_push;", name);
+    line("    {0}_reads_second <= {0}_reads_second ^ {0}_take;", name);
+    line("    {0}_there <= {0}_push | ({0}_there & ~({0}_ready & {0}_take));", name);
+    line("    {0}_ready <= ~({0}_there & ~{0}_take & ({0}_push | ~{0}_ready));", name);
     line("    if (rst) begin");
+    line("      {}_fills_second <= 1'b0;", name);
+    line("      {}_reads_second <= 1'b0;", name);
     line("      {}_there <= 1'b0;", name);
-    line("      {}_spare_there <= 1'b0;", name);
-    line("      {} <= 1'b0;", ready);
+    line("      {}_ready <= 1'b0;", name);
     line("    end");
     line("  end");
   }
@@ -674,7 +711,10 @@ void writer::write_sampled_arguments(const std::string& name) {
 }
 
 void writer::declare_register(register_id r) {
-  line("  reg {}{};{}", range_of(g_.registers[r].width), register_name_[r], comment(g_.registers[r].where));
+  const dataflow::register_state& state = g_.registers[r];
+  const std::string at_power_up =
+      state.initial && !is_reset(g_, s_, r) ? fmt::format(" = {}", literal(*state.initial)) : std::string();
+  line("  reg {}{}{};{}", range_of(state.width), register_name_[r], at_power_up, comment(state.where));
 }
 
 void writer::write_settled() {
@@ -794,6 +834,20 @@ void writer::write_copies(int stage) {
     for (std::size_t copy = 1; copy < all.count(); ++copy) {
       reader_ = all.first_reader[copy];
       write_copy(copy_name(fmt::format("valid_s{}", stage), copy), 1, "rst", valid(stage - 1));
+    }
+  }
+  for (const auto& [place, all] : plan_.update_bits) {
+    if (place.second != stage) continue;
+    for (std::size_t copy = 0; copy < all.count(); ++copy) {
+      reader_ = all.first_reader[copy];
+      const std::string name = update_bit(place.first, stage);
+      const std::string source = fmt::format("{} & {}", valid(stage - 1), operand(place.first, stage - 1));
+      if (copy > 0) {
+        write_copy(name, 1, "rst", source);
+        continue;
+      }
+      line("  reg {};{}", name, comment(g_.nodes[place.first].where));
+      moves.emplace_back(name, fmt::format("~rst & {}", source));
     }
   }
   reader_ = 0;
@@ -1019,9 +1073,14 @@ void writer::write_state(int stage) {
   for (const register_id r : here) {
     read_by(r);
     const node_id condition = g_.registers[r].enable;
-    const std::string enable = is_always(condition) ? std::string() : whole(condition, stage);
-    const auto [found, fresh_group] = group_of.try_emplace({valid(stage), enable}, groups.size());
-    if (fresh_group) groups.push_back({valid(stage), enable, {}});
+    std::string when = update_bit(condition, stage);
+    std::string enable;
+    if (when.empty()) {
+      when = valid(stage);
+      if (!is_always(condition)) enable = whole(condition, stage);
+    }
+    const auto [found, fresh_group] = group_of.try_emplace({when, enable}, groups.size());
+    if (fresh_group) groups.push_back({when, enable, {}});
     groups[found->second].registers.push_back(r);
   }
   const auto target = [&](register_id r) {
@@ -1044,17 +1103,20 @@ void writer::write_state(int stage) {
     if (conditional) line("      end");
     if (i + 1 == groups.size() || groups[i + 1].valid != now.valid) line("    end");
   }
-  reader_ = 0;
-  std::string resets;
+  std::string signal, open;
   for (const register_id r : here) {
-    if (!g_.registers[r].initial) continue;
-    fmt::format_to(std::back_inserter(resets), "      {} <= {};\n", target(r), literal(*g_.registers[r].initial));
+    if (!is_reset(g_, s_, r)) continue;
+    read_by(r);
+    signal = s_.register_stage[r] == settled ? "rst" : state_reset();
+    if (signal != open) {
+      if (!open.empty()) line("    end");
+      line("    if ({}) begin", signal);
+      open = signal;
+    }
+    line("      {} <= {};", target(r), literal(*g_.registers[r].initial));
   }
-  if (!resets.empty()) {
-    line("    if (rst) begin");
-    out_ += resets;
-    line("    end");
-  }
+  if (!open.empty()) line("    end");
+  reader_ = 0;
   line("  end");
 }
 
@@ -1144,7 +1206,7 @@ void writer::write_patient() {
 void writer::write_valids() {
   title("valid bits");
   line("  always @(posedge clk) begin");
-  line("    running <= ~rst;");
+  line("    running <= {};", plan_.has_reset_rows() ? "~(rst | early_state_reset | state_reset)" : "~rst");
   if (plan_.last_valid > 1) {
     line("    valid <= rst ? {} : {{valid[{}:1], fire}};", literal(plan_.last_valid, 0), plan_.last_valid - 1);
   } else {
@@ -1279,6 +1341,7 @@ std::string writer::write() {
     line("  reg {}_room;", port_name_[f.port]);
   }
   write_inputs();
+  write_reset_rows();
   write_settled();
   write_memory_declarations();
   write_delay_pointers();
@@ -1317,6 +1380,10 @@ std::vector<signal> writer::signals() const {
                              {"holding", "control", "1 while no issue may come", 1, -1, {}},
                              {"commit", "control", "1 when registers that wait for the pipeline change", 1, -1, {}},
                              {g_.name, "control", "the module", 0, -1, {}}};
+  if (plan_.has_reset_rows()) {
+    all.push_back({"early_state_reset", "control", "the reset on its way to the state", 1, -1, {}});
+    all.push_back({"state_reset", "control", "the reset of the state", 1, -1, {}});
+  }
   for (const rtl_port& port : interface_) {
     const auto add = [&](const std::string& name, unsigned width) {
       all.push_back({name, "port signal", fmt::format("of '{}'", port.name), width, -1, {port.where}});

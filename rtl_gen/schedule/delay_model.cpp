@@ -28,6 +28,7 @@ constexpr delay_parameters ecp5{.launch = 1.22,
                                 .distributed_read = 1.10,
                                 .distributed_max_words = 64,
                                 .memory_setup = 0.30,
+                                .block_wire = 1.20,
                                 .issue = 1.60,
                                 .spread_doubling = 0.40,
                                 .block_bits = 18432,
@@ -129,8 +130,6 @@ bool is_wire(const graph& g, node_id id) {
     case operation::shift_right_logical:
     case operation::shift_right_arithmetic:
       return is_constant(g, n.operands[1]);
-    case operation::read:
-      return is_constant(g, n.operands[0]);
     // Every bit is the condition, its inverse or a constant.
     case operation::select:
       return is_constant(g, n.operands[1]) && is_constant(g, n.operands[2]);
@@ -158,7 +157,7 @@ double delay_model::delay(const graph& g, node_id id) const {
   const auto carry = [&](unsigned width) { return p.carry_entry + p.carry_bit * width + p.carry_exit; };
   switch (n.kind) {
     case operation::read:
-      return gate * p.lut_level;  // masked by its predicate
+      return 0.8 * p.lut_level;  // of one of two registers, masked by its predicate
     case operation::add:
     case operation::subtract:
     case operation::add_or_subtract:
@@ -226,11 +225,12 @@ double delay_model::entry(const graph& g, node_id id, std::size_t index) const {
   const node& n = g.nodes[id];
   switch (n.kind) {
     case operation::memory_read:
-      return latency(g, id) > 0 ? parameters_.memory_setup : 0;
     case operation::table:
-      return latency(g, id) > 0 ? parameters_.memory_setup : 0;
-    case operation::memory_write:
-      return parameters_.memory_setup + (index == 2 ? enable_entry() : 0);
+      return latency(g, id) > 0 ? parameters_.memory_setup + parameters_.block_wire : 0;
+    case operation::memory_write: {
+      const bool block = storage(g.memories[n.object]) == storage_kind::block;
+      return parameters_.memory_setup + (block ? parameters_.block_wire : 0) + (index == 2 ? enable_entry() : 0);
+    }
     case operation::write:
       return parameters_.memory_setup + (index == 0 ? enable_entry() : 0);
     default:

@@ -31,8 +31,10 @@ struct delay_parameters {
   double distributed_read = 0;         // address to word for 16 words; every doubling costs half a LUT level
   unsigned distributed_max_words = 0;  // 0: the target has no LUT RAM
   double memory_setup = 0;             // set-up of a RAM's address, data and enable inputs
-  double issue = 0;            // from a read's predicate through the decision to issue, one LUT that also takes in the
-                               // predicate's last gate, to the clock enables it drives
+  double block_wire = 0;  // what the wire to a block RAM's inputs is longer than others: RAMs stand in columns of their
+                          // own, far from most of the logic
+  double issue = 0;       // from a read's predicate through the decision to issue, one LUT that also takes in the
+                          // predicate's last gate, to the clock enables it drives
   double spread_doubling = 0;  // what every doubling of a value's readers adds to its wire, from spread_from on
   // The same for all targets: these hang on the shape of designs more than on the device.
   double calm_share = 0.85;  // of the period, for chains outside recurrences: a register there costs no throughput, and
@@ -41,6 +43,8 @@ struct delay_parameters {
   double spread_of_copies = 0.5;     // the share of it that stays where the value comes from flip-flops with copies
   double most_spread_of_copies = 1;  // nanoseconds
   unsigned most_readers = 16;        // inputs that one flip-flop drives: from there on it has copies
+  unsigned most_enabled = 48;        // flip-flops that one clock enable drives: a row of slices or two
+  unsigned most_reset = 512;         // flip-flops that one reset clears: slices take few different ones side by side
   unsigned very_many_readers = 64;   // from here on a value is in a flip-flop for a clock before its copies are
   unsigned block_bits = 0;           // of one block RAM
   unsigned block_max_width = 0;

@@ -72,7 +72,7 @@ std::vector<load> find_loads(const graph& g, const delay_model& model) {
   }
   for (node_id id = static_cast<node_id>(count); id-- > 0;) {
     const node& n = g.nodes[id];
-    const bool wire = is_wire(g, id) && n.kind != operation::read;
+    const bool wire = is_wire(g, id);
     for (std::size_t i = 0; i < n.operands.size(); ++i) {
       const node_id operand = n.operands[i];
       if (is_constant(operand)) continue;
@@ -87,7 +87,7 @@ std::vector<load> find_loads(const graph& g, const delay_model& model) {
     const auto by = static_cast<reader>(count + r);
     const dataflow::register_state& state = g.registers[r];
     if (!is_constant(state.next)) all.push_back({state.next, by, 1});
-    if (!is_constant(state.enable)) all.push_back({state.enable, by, static_cast<double>(state.width)});
+    if (!is_constant(state.enable)) all.push_back({state.enable, by, static_cast<double>(state.width), true});
   }
   return all;
 }

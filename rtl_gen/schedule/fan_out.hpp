@@ -16,7 +16,8 @@ using reader = std::uint32_t;
 struct load {
   dataflow::node_id value = dataflow::none;
   reader by = 0;
-  double inputs = 0;  // that one bit of the value drives there, wires behind it followed to their ends
+  double inputs = 0;     // that one bit of the value drives there, wires behind it followed to their ends
+  bool enables = false;  // the reader is a register, and the value decides whether it is updated
 };
 
 /// Every read of every value that is not a constant, in the order of the readers. What stands behind a wire (a slice,

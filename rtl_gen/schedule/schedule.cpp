@@ -684,7 +684,24 @@ struct attempt {
   [[nodiscard]] bool feasible() const { return !stage.empty(); }
 };
 
-attempt try_once(const graph& g, const delay_model& model, const problem& p, double period, int interval, bool apart) {
+/// Recurrences: what chains of operations hold together, by variable. Of a memory whose words come again late enough
+/// there is time for registers between its words and what is written, so that is none.
+std::vector<std::uint32_t> find_recurrences(const system_of_constraints& system, std::uint32_t count) {
+  constexpr int roomy = 4;  // stages from the read to the write: two for the RAM, and some for registers
+  system_of_constraints tight;
+  for (const constraint& c : system.constraints)
+    if (c.why != reason::memory || c.distance > -roomy) tight.constraints.push_back(c);
+  tight.build(count);
+  return tight.component;
+}
+
+struct preferences {
+  bool apart = true;  // writes a stage after the reads of the same memory: block RAMs then never meet both of one word
+  bool roomy = true;  // registers between a memory's words and what is written
+};
+
+attempt try_once(const graph& g, const delay_model& model, const problem& p, double period, int interval,
+                 const preferences& wanted) {
   attempt a;
   const delay_parameters& d = model.parameters();
   for (node_id id = 0; id < g.nodes.size(); ++id) {
@@ -693,9 +710,10 @@ attempt try_once(const graph& g, const delay_model& model, const problem& p, dou
       return a;
     }
   }
-  p.add_order(interval, apart, a.system.constraints);
+  p.add_order(interval, wanted.apart, a.system.constraints);
   a.system.build(p.count());
-  const std::vector<std::uint32_t> component = a.system.component;
+  const std::vector<std::uint32_t> component =
+      wanted.roomy ? find_recurrences(a.system, p.count()) : a.system.component;
   a.too_slow = p.add_chains(period, period * model.parameters().calm_share, component, a.system.constraints);
   if (a.too_slow != none) return a;
   p.add_distribution(component, a.system.constraints);
@@ -704,11 +722,14 @@ attempt try_once(const graph& g, const delay_model& model, const problem& p, dou
   return a;
 }
 
-/// Prefers writes a stage after the reads of the same memory: block RAMs then never meet read and write of one word.
-attempt try_both(const graph& g, const delay_model& model, const problem& p, double period, int interval) {
-  attempt a = try_once(g, model, p, period, interval, true);
-  if (a.feasible() || a.too_slow != none) return a;
-  return try_once(g, model, p, period, interval, false);
+/// What is preferred is given up where nothing else works.
+attempt try_preferences(const graph& g, const delay_model& model, const problem& p, double period, int interval) {
+  attempt a;
+  for (const preferences& wanted : {preferences{}, preferences{.roomy = false}, preferences{false, false}}) {
+    a = try_once(g, model, p, period, interval, wanted);
+    if (a.feasible() || a.too_slow != none) break;
+  }
+  return a;
 }
 
 std::string describe_node(const graph& g, node_id id) {
@@ -808,7 +829,9 @@ std::string describe_node(const graph& g, node_id id) {
   }
 
   // The smallest period: double until something fits, then halve the interval down to a hundredth of a nanosecond.
-  const auto fits = [&](double period, int interval) { return try_both(g, model, p, period, interval).feasible(); };
+  const auto fits = [&](double period, int interval) {
+    return try_preferences(g, model, p, period, interval).feasible();
+  };
   double smallest_period = 0;
   double high = wanted.period * 2;
   while (high < wanted.period * 4096 && !fits(high, wanted.initiation_interval)) high *= 2;
@@ -848,7 +871,7 @@ std::string describe_node(const graph& g, node_id id) {
 attempt find_earliest(const graph& g, const delay_model& model, const problem& p, const options& wanted) {
   if (!(wanted.period > 0)) throw std::invalid_argument("the clock period must be positive");
   if (wanted.initiation_interval < 1) throw std::invalid_argument("the initiation interval must be at least 1");
-  attempt a = try_both(g, model, p, wanted.period, wanted.initiation_interval);
+  attempt a = try_preferences(g, model, p, wanted.period, wanted.initiation_interval);
   if (!a.feasible()) explain(g, model, p, wanted, a);
   return a;
 }
@@ -887,8 +910,8 @@ bool is_settled_register(const graph& g, const result& s, node_id id) {
 
 std::vector<use> uses(const graph& g, const result& s) {
   std::vector<use> all;
-  const auto note = [&](node_id value, int stage) {
-    if (s.stage[value] != settled) all.push_back({value, stage});
+  const auto note = [&](node_id value, int stage, register_id enables = none) {
+    if (s.stage[value] != settled) all.push_back({value, stage, enables});
   };
   for (node_id id = 0; id < g.nodes.size(); ++id) {
     if (s.stage[id] == settled) continue;
@@ -896,7 +919,7 @@ std::vector<use> uses(const graph& g, const result& s) {
   }
   for (register_id r = 0; r < g.registers.size(); ++r) {
     note(g.registers[r].next, s.register_update[r]);
-    note(g.registers[r].enable, s.register_update[r]);
+    note(g.registers[r].enable, s.register_update[r], r);
   }
   return all;
 }

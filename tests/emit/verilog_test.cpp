@@ -2,6 +2,8 @@
 
 #include "emit/verilog.hpp"
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -266,6 +268,22 @@ TEST(make_plan, puts_long_waits_into_ram) {
        emit::make_plan(shorter, small, schedule::make_schedule(shorter, small, {.period = 12})).lines) {
     EXPECT_EQ(line.storage, schedule::storage_kind::block);
   }
+}
+
+TEST(emit_verilog, leaves_registers_that_say_so_as_they_are_at_a_reset) {
+  graph g = make_counter();
+  ASSERT_FALSE(g.registers.empty());
+  g.registers[0].name = "kept";
+  g.registers[0].initial = llvm::APInt(g.registers[0].width, 1);
+  const schedule::delay_model model("ecp5");
+  const auto verilog = [&] { return emit::emit_verilog(g, model, schedule::make_schedule(g, model, {})); };
+  const std::string cleared = fmt::format("kept <= {}'d1;", g.registers[0].width);
+  const std::string started = fmt::format("kept = {}'d1;", g.registers[0].width);
+  EXPECT_THAT(verilog(), ::testing::HasSubstr(cleared));
+  EXPECT_THAT(verilog(), ::testing::Not(::testing::HasSubstr(started)));
+  g.registers[0].resets = false;
+  EXPECT_THAT(verilog(), ::testing::Not(::testing::HasSubstr(cleared)));
+  EXPECT_THAT(verilog(), ::testing::HasSubstr(started));
 }
 
 TEST(make_plan, gives_many_readers_copies_of_their_flip_flop) {
