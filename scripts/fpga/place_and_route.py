@@ -16,6 +16,10 @@ phases = (
     (r"^Info: Routing complete", "timing"),
 )
 
+# How much more the analytic placer minds the wires of slow paths: 10 is nextpnr's default. With 100 a method of 16 levels
+# came out 23 % faster on one seed, and 51 % on another.
+timing_weight = 100
+
 # What nextpnr's report calls the cells of each family.
 utilisation_names = {
     "ecp5": {
@@ -41,6 +45,8 @@ def command_for(family, executable, options, netlist, top, seed, megahertz, cons
         str(seed),
         "--report",
         "report.json",
+        "--placer-heap-timingweight",
+        str(timing_weight),
         "--timing-allow-fail",
     ]  # whether the clock is reached is judged from the report
     if family == "ecp5":
