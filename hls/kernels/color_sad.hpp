@@ -41,6 +41,10 @@ class color_sad {
   using costs = typename rows::costs;
   static constexpr int penalty = (1 << cost_t::width) - 1;  // for candidate_mask: there is no spare bit
 
+  /// Nobody looks at the sums of a frame's first row, for no window ends there, unless windows have but one row: so
+  /// that row sets the state right, and no reset is needed.
+  static constexpr bool restarts = window_rows > 1;
+
   struct place {
     typename columns::place column;
     bool row_starts;     // the first beat of a row
@@ -63,8 +67,7 @@ class color_sad {
     }
     const auto entering = differences(pixels_.left, pixels_.right, entering_right_, at);
     const auto leaving = differences(pixels_.oldest_left, pixels_.oldest_right, leaving_right_, at);
-    // The first row is above all windows of the frame: nobody looks at its sums.
-    return rows_.step(columns_.step(entering, leaving, at.column, at.group), at.column.first_row);
+    return rows_.step(columns_.step(entering, leaving, at.column, at.group), restarts && at.column.first_row);
   }
 
  private:

@@ -67,14 +67,15 @@ void color_fuzzy_frame(hls::stream<typename color_fuzzy_interface<Config>::video
   using sad = color_sad<Config>;
   constexpr int lanes = Config::pixels_per_beat;
 
-  // State lives on from frame to frame: calls follow one another without a bubble. A frame writes it before it reads it,
-  // so it needs no reset, which would cost wires all over the device.
+  // State lives on from frame to frame: calls follow one another without a bubble. A frame writes it before it reads
+  // it, so it needs no reset, which would cost wires all over the device.
   static sad matcher;
   static best_of_groups<Config, typename sad::cost_t> best;
   static uniqueness_check<Config> unique;
   static left_right_check<Config> agreement;
   static fuzzy_filter<Config> first_pass;
   static fuzzy_filter<Config> second_pass;
+  static_assert(sad::restarts, "windows of one row need a reset");
 #pragma HLS RESET variable = matcher off
 #pragma HLS RESET variable = best off
 #pragma HLS RESET variable = unique off

@@ -44,7 +44,7 @@ struct delay_parameters {
   double most_spread_of_copies = 1;  // nanoseconds
   unsigned most_readers = 16;        // inputs that one flip-flop drives: from there on it has copies
   unsigned most_enabled = 48;        // flip-flops that one clock enable drives: a row of slices or two
-  unsigned most_reset = 512;         // flip-flops that one reset clears: slices take few different ones side by side
+  unsigned most_reset = 4096;        // flip-flops that one reset clears: few different resets, or slices fill badly
   unsigned very_many_readers = 64;   // from here on a value is in a flip-flop for a clock before its copies are
   unsigned block_bits = 0;           // of one block RAM
   unsigned block_max_width = 0;
