@@ -37,14 +37,8 @@ class row_sum {
   using cost_t = ap_uint<window::bits_for(window_columns* window_columns* Window::largest_difference)>;
   using costs = level_array<cost_t, lanes, levels>;
 
-  /// `restart` during a whole row makes the state agree with itself, whatever it was: the results of that row and what
-  /// it leaves in the window are 0.
-  costs step(const column_beat& wanted, bool restart = false) {
+  costs step(const column_beat& newest) {
 #pragma HLS INLINE
-    column_beat newest;
-    for (int lane = 0; lane < lanes; ++lane) {
-      for (int d = 0; d < levels; ++d) newest.at[lane][d] = restart ? column_t(0) : wanted.at[lane][d];
-    }
     if constexpr (groups > 1) {  // one lane
       entering_ = waiting_.step(newest);
       leaving_ = inside_.step(newest);
@@ -61,7 +55,7 @@ class row_sum {
       }
     }
     move_groups_on(sum_);
-    for (int d = 0; d < levels; ++d) sum_[0][d] = restart ? cost_t(0) : result.at[lanes - 1][d];
+    for (int d = 0; d < levels; ++d) sum_[0][d] = result.at[lanes - 1][d];
 
     if constexpr (groups == 1) {
       for (int k = history - 1; k >= lanes; --k) {
@@ -71,6 +65,19 @@ class row_sum {
         for (int d = 0; d < levels; ++d) columns_[lanes - 1 - lane][d] = newest.at[lane][d];
       }
     }
+    return result;
+  }
+
+  /// `restart` during a whole row makes the state agree with itself, whatever it was: what that row leaves in the
+  /// window is 0, and so is the sum.
+  costs step(const column_beat& newest, bool restart) {
+#pragma HLS INLINE
+    column_beat kept;
+    for (int lane = 0; lane < lanes; ++lane) {
+      for (int d = 0; d < levels; ++d) kept.at[lane][d] = restart ? column_t(0) : newest.at[lane][d];
+    }
+    const costs result = step(kept);
+    for (int d = 0; d < levels; ++d) sum_[0][d] = restart ? cost_t(0) : sum_[0][d];
     return result;
   }
 

@@ -176,15 +176,7 @@ class network_writer {
 
   /// What the names of the top module come from.
   [[nodiscard]] std::vector<signal> signals() const {
-    std::vector<signal> all = {{"clk", "control", "the clock", 1, -1, {}},
-                               {"rst", "control", "the reset, active high", 1, -1, {}},
-                               {n_.name, "control", "the module", 0, -1, {}}};
-    for (const rtl_port& p : interface_) {
-      for (const rtl_field& f : p.fields)
-        all.push_back({f.rtl, "port signal", "of '" + p.name + "'", f.width, -1, {p.where}});
-      for (const std::string& name : {p.valid, p.ready})
-        all.push_back({name, "port signal", "of '" + p.name + "'", 1, -1, {p.where}});
-    }
+    std::vector<signal> all = interface_signals(n_.name, interface_);
     for (std::size_t i = 0; i < n_.fifos.size(); ++i) {
       const fifo& f = n_.fifos[i];
       const auto add = [&](const end_wires& wires, const char* side) {

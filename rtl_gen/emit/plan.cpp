@@ -179,7 +179,6 @@ copies divide_readers(std::vector<std::pair<schedule::reader, double>>& readers,
 /// Copies of flip-flops with many readers. The stage before feeds every copy, and has copies for that where needed.
 void plan_copies(const graph& g, const schedule::delay_model& model, const schedule::result& s, plan& p) {
   const unsigned most = model.parameters().most_readers;
-  const unsigned most_enabled = model.parameters().most_enabled;
   constexpr unsigned widest = 64;  // wider values are parts side by side, each with few readers
   using readers = std::vector<std::pair<schedule::reader, double>>;
   std::map<std::pair<node_id, int>, readers> of_value, of_condition;
@@ -193,7 +192,7 @@ void plan_copies(const graph& g, const schedule::delay_model& model, const sched
   }
   std::vector<readers> of_valid(p.last_valid + 1);
   for (auto& [place, here] : of_condition) {
-    const copies divided = divide_readers(here, most_enabled);
+    const copies divided = divide_readers(here, model.parameters().most_enabled);
     for (const schedule::reader by : divided.first_reader) {
       of_value[{place.first, place.second - 1}].emplace_back(by, 1);
       of_valid[place.second - 1].emplace_back(by, 1);
@@ -229,7 +228,7 @@ void plan_copies(const graph& g, const schedule::delay_model& model, const sched
   // Valid bits enable the state.
   for (dataflow::register_id r = 0; r < g.registers.size(); ++r) {
     const int stage = s.register_update[r];
-    if (has_update_bit(g, s, g.registers[r].enable, stage)) continue;
+    if (p.update_bits.contains({g.registers[r].enable, stage})) continue;
     of_valid[stage].emplace_back(count + r, g.registers[r].width);
   }
   p.valid_copies.assign(p.last_valid + 1, copies{{0}});

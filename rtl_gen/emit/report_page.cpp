@@ -1,9 +1,12 @@
 #include "emit/report_page.hpp"
 
 #include <fmt/format.h>
+#include <llvm/ADT/StringExtras.h>
+#include <llvm/Support/raw_ostream.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -50,29 +53,12 @@ summary{cursor:pointer;margin:.5rem 0}
 )";
 
 std::string escaped(std::string_view text) {
+  std::string printable;  // control characters are not text of a page
+  std::copy_if(text.begin(), text.end(), std::back_inserter(printable),
+               [](char c) { return static_cast<unsigned char>(c) >= 0x20 || c == '\t'; });
   std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      case '\'':
-        result += "&#39;";
-        break;
-      default:
-        // Control characters are not text of a page.
-        if (static_cast<unsigned char>(c) >= 0x20 || c == '\t') result += c;
-    }
-  }
+  llvm::raw_string_ostream out(result);
+  llvm::printHTMLEscaped(printable, out);
   return result;
 }
 

@@ -224,6 +224,21 @@ std::string nearest(const std::string& name, const std::vector<explainer>& modul
 
 }  // namespace
 
+std::vector<signal> interface_signals(const std::string& module, const std::vector<rtl_port>& ports) {
+  std::vector<signal> all = {{"clk", "control", "the clock", 1, -1, {}},
+                             {"rst", "control", "the reset, active high", 1, -1, {}},
+                             {module, "control", "the module", 0, -1, {}}};
+  for (const rtl_port& port : ports) {
+    const auto add = [&](const std::string& name, unsigned width) {
+      all.push_back({name, "port signal", fmt::format("of '{}'", port.name), width, -1, {port.where}});
+    };
+    for (const rtl_field& f : port.fields) add(f.rtl, f.width);
+    add(port.valid, 1);
+    add(port.ready, 1);
+  }
+  return all;
+}
+
 std::string signals_text(const std::vector<module_signals>& modules) {
   std::string text = fmt::format("{{\"schema\": {}, \"modules\": [", json(schema).dump());
   for (std::size_t m = 0; m < modules.size(); ++m) {

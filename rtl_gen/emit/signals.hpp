@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dataflow/graph.hpp"
+#include "emit/interface.hpp"
 
 namespace epiline::emit {
 
@@ -18,6 +19,9 @@ struct signal {
   int stage = -1;                                // where it is computed or read; -1: it belongs to no stage
   std::vector<dataflow::source_location> where;  // its own line first, then those of what is part of its expression
 };
+
+/// What every module has: clock, reset, its own name, the signals of its ports.
+[[nodiscard]] std::vector<signal> interface_signals(const std::string& module, const std::vector<rtl_port>& ports);
 
 /// The names of one module of a Verilog file.
 struct module_signals {

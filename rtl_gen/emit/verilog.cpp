@@ -162,6 +162,16 @@ class writer {
   void write_contents(const std::string& name, const std::vector<llvm::APInt>& values);
   void write_stage(int stage);
   void write_copies(int stage);
+  using move_list = std::vector<std::pair<std::string, std::string>>;  // at the clock: into what, and what
+  struct flip_flops {
+    std::string name;
+    unsigned width = 1;
+    bool cleared = false;  // by the reset
+    dataflow::source_location where = {};
+  };
+  template <class Source>
+  void write_flip_flops(const flip_flops& wanted, const copies& all, const Source& source, move_list& moves);
+  void write_moves(const move_list& moves);
   void write_copy(const std::string& name, unsigned width, const std::string& clear, const std::string& source);
   void write_logic(int stage);
   void write_issue();
@@ -442,24 +452,37 @@ std::string writer::state_reset() const {
   return plan_.has_reset_rows() ? copy_of("state_reset", plan_.reset_copies) : "rst";
 }
 
+/// Flip-flops and their copies. `source` gives the text of what they take over, for the reader that is set.
+template <class Source>
+void writer::write_flip_flops(const flip_flops& wanted, const copies& all, const Source& source, move_list& moves) {
+  line("  reg {}{};{}", range_of(wanted.width), wanted.name, comment(wanted.where));
+  for (std::size_t copy = 0; copy < all.count(); ++copy) {
+    reader_ = all.first_reader[copy];
+    if (copy > 0) {
+      write_copy(copy_name(wanted.name, copy), wanted.width, wanted.cleared ? "rst" : "1'b0", source());
+    } else {
+      moves.emplace_back(wanted.name, (wanted.cleared ? "~rst & " : "") + source());
+    }
+  }
+  reader_ = 0;
+}
+
+void writer::write_moves(const move_list& moves) {
+  if (moves.empty()) return;
+  line("  always @(posedge clk) begin");
+  for (const auto& [target, source] : moves) line("    {} <= {};", target, source);
+  line("  end");
+}
+
 void writer::write_reset_rows() {
   if (!plan_.has_reset_rows()) return;
   title("reset of the state: through two rows of flip-flops, near what they reset");
-  const auto row = [&](const char* name, const copies& all, const auto& source) {
-    line("  reg {};", name);
-    std::string first;
-    for (std::size_t copy = 0; copy < all.count(); ++copy) {
-      reader_ = all.first_reader[copy];
-      if (copy > 0)
-        write_copy(copy_name(name, copy), 1, "1'b0", source());
-      else
-        first = source();
-    }
-    line("  always @(posedge clk) {} <= {};", name, first);
-  };
-  row("early_state_reset", plan_.early_reset_copies, [] { return std::string("rst"); });
-  row("state_reset", plan_.reset_copies, [&] { return copy_of("early_state_reset", plan_.early_reset_copies); });
-  reader_ = 0;
+  move_list moves;
+  write_flip_flops({"early_state_reset", 1}, plan_.early_reset_copies, [] { return std::string("rst"); }, moves);
+  write_flip_flops(
+      {"state_reset", 1}, plan_.reset_copies, [&] { return copy_of("early_state_reset", plan_.early_reset_copies); },
+      moves);
+  write_moves(moves);
 }
 
 std::string writer::operand(node_id id, int stage) const {
@@ -635,8 +658,7 @@ void writer::write_inputs() {
       write_sampled_arguments(name);
       continue;
     }
-    // Neither tready nor a clock enable of the tokens hangs on whether an iteration is issued: that is known last of
-    // all.
+    // Neither tready nor a clock enable of the tokens hangs on the decision to issue, which is known last of all.
     title(fmt::format("input {}: two registers, filled and read in turn", port.name));
     std::string token;
     for (std::size_t f = port.fields.size(); f-- > 0;) {
@@ -813,20 +835,15 @@ void writer::write_contents(const std::string& name, const std::vector<llvm::API
 
 void writer::write_copies(int stage) {
   // Flip-flops that hold in this stage what the stage before had; delay lines that end here.
-  std::vector<std::pair<std::string, std::string>> moves;
+  move_list moves;
   for (node_id id = 0; id < g_.nodes.size(); ++id) {
     for (const wait_step& step : plan_.waits[id]) {
       if (step.line >= 0 || stage <= step.from || stage > step.to) continue;
       const std::string name = stage_name(node_name_[id], stage);
-      line("  reg {}{};", range_of(g_.nodes[id].width), name);
-      reader_ = 0;
-      moves.emplace_back(name, whole(id, stage - 1));
       const auto all = plan_.value_copies.find({id, stage});
-      if (all == plan_.value_copies.end()) continue;
-      for (std::size_t copy = 1; copy < all->second.count(); ++copy) {
-        reader_ = all->second.first_reader[copy];
-        write_copy(copy_name(name, copy), g_.nodes[id].width, "1'b0", whole(id, stage - 1));
-      }
+      write_flip_flops(
+          {name, g_.nodes[id].width}, all == plan_.value_copies.end() ? copies{{0}} : all->second,
+          [&] { return whole(id, stage - 1); }, moves);
     }
   }
   if (stage <= plan_.last_valid) {
@@ -838,17 +855,8 @@ void writer::write_copies(int stage) {
   }
   for (const auto& [place, all] : plan_.update_bits) {
     if (place.second != stage) continue;
-    for (std::size_t copy = 0; copy < all.count(); ++copy) {
-      reader_ = all.first_reader[copy];
-      const std::string name = update_bit(place.first, stage);
-      const std::string source = fmt::format("{} & {}", valid(stage - 1), operand(place.first, stage - 1));
-      if (copy > 0) {
-        write_copy(name, 1, "rst", source);
-        continue;
-      }
-      line("  reg {};{}", name, comment(g_.nodes[place.first].where));
-      moves.emplace_back(name, fmt::format("~rst & {}", source));
-    }
+    const auto source = [&] { return fmt::format("{} & {}", valid(stage - 1), operand(place.first, stage - 1)); };
+    write_flip_flops({update_name_.at(place), 1, true, g_.nodes[place.first].where}, all, source, moves);
   }
   reader_ = 0;
   for (std::size_t i = 0; i < plan_.lines.size(); ++i) {
@@ -900,10 +908,7 @@ void writer::write_copies(int stage) {
     line("  reg {}{};{}", range_of(n.width), node_name_[id], comment(n.where));
     moves.emplace_back(node_name_[id], node_name_[id] + "_q");
   }
-  if (moves.empty()) return;
-  line("  always @(posedge clk) begin");
-  for (const auto& [target, source] : moves) line("    {} <= {};", target, source);
-  line("  end");
+  write_moves(moves);
 }
 
 void writer::write_copy(const std::string& name, unsigned width, const std::string& clear, const std::string& source) {
@@ -1064,7 +1069,7 @@ void writer::write_state(int stage) {
   const std::vector<register_id>& here = updates_at_[stage];
   if (here.empty()) return;
   struct group {  // registers that the same signals enable
-    std::string valid, enable;
+    std::string when, enable;
     std::vector<register_id> registers;
   };
   std::vector<group> groups;  // in order of appearance
@@ -1092,7 +1097,7 @@ void writer::write_state(int stage) {
   line("  always @(posedge clk) begin");
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const group& now = groups[i];
-    if (i == 0 || groups[i - 1].valid != now.valid) line("    if ({}) begin", now.valid);
+    if (i == 0 || groups[i - 1].when != now.when) line("    if ({}) begin", now.when);
     const bool conditional = !now.enable.empty();
     if (conditional) line("      if ({}) begin", now.enable);
     for (const register_id r : now.registers) {
@@ -1101,17 +1106,17 @@ void writer::write_state(int stage) {
            comment(g_.registers[r].where));
     }
     if (conditional) line("      end");
-    if (i + 1 == groups.size() || groups[i + 1].valid != now.valid) line("    end");
+    if (i + 1 == groups.size() || groups[i + 1].when != now.when) line("    end");
   }
-  std::string signal, open;
+  std::string open;  // the reset whose block is open
   for (const register_id r : here) {
     if (!is_reset(g_, s_, r)) continue;
     read_by(r);
-    signal = s_.register_stage[r] == settled ? "rst" : state_reset();
-    if (signal != open) {
+    const std::string reset = s_.register_stage[r] == settled ? "rst" : state_reset();
+    if (reset != open) {
       if (!open.empty()) line("    end");
-      line("    if ({}) begin", signal);
-      open = signal;
+      line("    if ({}) begin", reset);
+      open = reset;
     }
     line("      {} <= {};", target(r), literal(*g_.registers[r].initial));
   }
@@ -1371,26 +1376,19 @@ void writer::collect_lines(node_id id, std::vector<dataflow::source_location>& l
 }
 
 std::vector<signal> writer::signals() const {
-  std::vector<signal> all = {{"clk", "control", "the clock", 1, -1, {}},
-                             {"rst", "control", "the reset, active high", 1, -1, {}},
-                             {"fire", "control", "1 when an iteration is issued", 1, -1, {}},
-                             {"running", "control", "1 outside of the reset", 1, -1, {}},
-                             {"valid", "control", "which stages hold an iteration", 0, -1, {}},
-                             {"hold", "control", "clocks until the next issue may come", 0, -1, {}},
-                             {"holding", "control", "1 while no issue may come", 1, -1, {}},
-                             {"commit", "control", "1 when registers that wait for the pipeline change", 1, -1, {}},
-                             {g_.name, "control", "the module", 0, -1, {}}};
+  std::vector<signal> all = interface_signals(g_.name, interface_);
+  const auto control = [&](const char* name, const char* what, unsigned width) {
+    all.push_back({name, "control", what, width, -1, {}});
+  };
+  control("fire", "1 when an iteration is issued", 1);
+  control("running", "1 outside of the reset", 1);
+  control("valid", "which stages hold an iteration", 0);
+  control("hold", "clocks until the next issue may come", 0);
+  control("holding", "1 while no issue may come", 1);
+  control("commit", "1 when registers that wait for the pipeline change", 1);
   if (plan_.has_reset_rows()) {
-    all.push_back({"early_state_reset", "control", "the reset on its way to the state", 1, -1, {}});
-    all.push_back({"state_reset", "control", "the reset of the state", 1, -1, {}});
-  }
-  for (const rtl_port& port : interface_) {
-    const auto add = [&](const std::string& name, unsigned width) {
-      all.push_back({name, "port signal", fmt::format("of '{}'", port.name), width, -1, {port.where}});
-    };
-    for (const rtl_field& f : port.fields) add(f.rtl, f.width);
-    add(port.valid, 1);
-    add(port.ready, 1);
+    control("early_state_reset", "the reset on its way to the state", 1);
+    control("state_reset", "the reset of the state", 1);
   }
   for (std::size_t i = 0; i < g_.ports.size(); ++i) {
     const dataflow::port& port = g_.ports[i];
@@ -1406,7 +1404,7 @@ std::vector<signal> writer::signals() const {
     for (const char* inside :
          {"aw_there", "aw_waits", "w_there", "w_waits", "ar_there", "ar_waits", "write", "read", "write_word",
           "write_data", "write_strobe", "read_word", "calls", "arguments", "started", "start", "keep"}) {
-      all.push_back({inside, "control", "inside the AXI4-Lite slave", 0, -1, {}});
+      control(inside, "inside the AXI4-Lite slave", 0);
     }
   }
   for (register_id r = 0; r < g_.registers.size(); ++r) {

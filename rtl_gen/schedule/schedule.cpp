@@ -684,15 +684,15 @@ struct attempt {
   [[nodiscard]] bool feasible() const { return !stage.empty(); }
 };
 
-/// Recurrences: what chains of operations hold together, by variable. Of a memory whose words come again late enough
-/// there is time for registers between its words and what is written, so that is none.
-std::vector<std::uint32_t> find_recurrences(const system_of_constraints& system, std::uint32_t count) {
-  constexpr int roomy = 4;  // stages from the read to the write: two for the RAM, and some for registers
+/// Recurrences: what chains of operations hold together, by variable. A `roomy` memory, whose words come again so late
+/// that there is time for registers between its words and what is written, holds nothing together.
+std::vector<std::uint32_t> find_recurrences(const std::vector<constraint>& order, std::uint32_t count, bool roomy) {
+  constexpr int room = 4;  // stages from the read to the write: two for the RAM, and some for registers
   system_of_constraints tight;
-  for (const constraint& c : system.constraints)
-    if (c.why != reason::memory || c.distance > -roomy) tight.constraints.push_back(c);
+  for (const constraint& c : order)
+    if (!roomy || c.why != reason::memory || c.distance > -room) tight.constraints.push_back(c);
   tight.build(count);
-  return tight.component;
+  return std::move(tight.component);
 }
 
 struct preferences {
@@ -711,9 +711,7 @@ attempt try_once(const graph& g, const delay_model& model, const problem& p, dou
     }
   }
   p.add_order(interval, wanted.apart, a.system.constraints);
-  a.system.build(p.count());
-  const std::vector<std::uint32_t> component =
-      wanted.roomy ? find_recurrences(a.system, p.count()) : a.system.component;
+  const std::vector<std::uint32_t> component = find_recurrences(a.system.constraints, p.count(), wanted.roomy);
   a.too_slow = p.add_chains(period, period * model.parameters().calm_share, component, a.system.constraints);
   if (a.too_slow != none) return a;
   p.add_distribution(component, a.system.constraints);
