@@ -57,8 +57,9 @@ class source_lines:
         return (stem or cell), None
 
     def where(self, name):
-        """The line of a name; what waits for a later stage, `name_s7`, is declared without, as are copies of that."""
-        return self.of_name.get(name) or self.of_name.get(re.sub(r"_s\d+(_copy\d+)?$", "", name))
+        """The line of a name; what waits for a later stage, `name_s7`, is declared without, as are copies."""
+        original = re.sub(r"_copy\d+$", "", name)
+        return self.of_name.get(original) or self.of_name.get(re.sub(r"_s\d+$", "", original))
 
 
 class cell_attributes:

@@ -62,12 +62,14 @@ class a_run(fpga_bench):
         verilog = self.folder / "top.v"
         verilog.write_text(
             "  wire [8:0] sum = a + b;  // counter.cpp:5\n  reg [8:0] sum_s4;\n  wire [8:0] sum_s4_copy12;\n"
-            "  epiline_copy #(.WIDTH(9)) sum_s4_copy12_register (.clk(clk), .clear(1'b0), .d(sum), .q(sum_s4_copy12));\n",
+            "  epiline_copy #(.WIDTH(9)) sum_s4_copy12_register (.clk(clk), .clear(1'b0), .d(sum), .q(sum_s4_copy12));\n"
+            "  reg more_enable_4;  // counter.cpp:6\n  wire more_enable_4_copy1;\n",
             encoding="utf-8",
         )
         lines = critical_path.source_lines([verilog])
         for cell in ("sum_s4_TRELLIS_FF_Q_1", "sum_s4_copy12_register.bits_TRELLIS_FF_Q_1", "sum_s4_copy12[3]"):
             self.assertEqual(lines.of_cell(cell)[1], "counter.cpp:5", cell)
+        self.assertEqual(lines.of_cell("more_enable_4_copy1_register.bits_TRELLIS_FF_Q")[1], "counter.cpp:6")
 
     def test_a_clock_that_is_not_reached_is_a_failure_with_the_path(self):
         ended = self.run_flow("--clock", "6", "--seeds", "2", "-o", "out")
