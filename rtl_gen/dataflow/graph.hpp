@@ -89,6 +89,9 @@ struct register_state {
   /// only after that update has taken place, so its next value may take any number of clocks.
   bool patient = false;
   source_location where;
+  /// Its number in the graph that the pass now running was given; none: the pass made it. Kept only while somebody
+  /// watches the passes (passes::pipeline_options::observer).
+  register_id origin = none;
 };
 
 struct memory {
@@ -102,6 +105,8 @@ struct memory {
   unsigned distance = 1;
   bool distance_promised = false;  // by the source, not established by a pass
   source_location where;
+  /// Like register_state::origin: the memories whose words stand side by side in this one's, the lowest bits first.
+  std::vector<memory_id> origins;
 };
 
 struct table {
@@ -110,6 +115,7 @@ struct table {
   std::vector<llvm::APInt> values;
   bool immediate = false;  // its word is needed in the clock of its address: it must not be a block RAM
   source_location where;
+  std::uint32_t origin = none;  // like register_state::origin
 };
 
 /// One signal group of a port; `signal` is the RTL suffix ("tdata", "tuser", "tlast", ...) or, for a call port, the

@@ -1,5 +1,6 @@
 #pragma once
-// A readable text form of dataflow graphs, for people, tests and bug reports. Everything in the graph is in the text.
+// A readable text form of dataflow graphs, for people, tests and bug reports. Everything in the graph is in the
+// text, except what objects were before a pass (`origin`).
 //
 //   graph "sum"
 //   file "sum.cpp"

@@ -135,6 +135,7 @@ dataflow::memory packed_memory(const graph& g, const group& members) {
   for (std::size_t i = 1; i < members.members.size(); ++i) {
     const dataflow::memory& next = g.memories[members.members[i]];
     packed.width += next.width;
+    packed.origins.insert(packed.origins.end(), next.origins.begin(), next.origins.end());
     for (std::size_t w = 0; w < packed.initial.size(); ++w)
       packed.initial[w] = next.initial[w].concat(packed.initial[w]);
   }

@@ -29,12 +29,20 @@ constexpr unsigned max_rounds = 4;
 
 class runner {
  public:
-  explicit runner(graph& g) : g_(g) { check("the given graph"); }
+  runner(graph& g, const pipeline_options& options) : g_(g), options_(options) { check("the given graph"); }
 
   void run(const char* name, const std::function<void(graph&)>& pass) {
     const graph_size before = size_of(g_);
-    pass(g_);
-    check(name);
+    if (!options_.observer) {
+      pass(g_);
+      check(name);
+    } else {
+      number_objects();
+      const graph given = g_;
+      pass(g_);
+      check(name);
+      options_.observer(name, given, g_);
+    }
     reports.push_back({name, before, size_of(g_)});
   }
 
@@ -56,7 +64,14 @@ class runner {
       throw std::logic_error(fmt::format("after {}: {}", where, what));
   }
 
+  void number_objects() {
+    for (dataflow::register_id r = 0; r < g_.registers.size(); ++r) g_.registers[r].origin = r;
+    for (dataflow::memory_id m = 0; m < g_.memories.size(); ++m) g_.memories[m].origins = {m};
+    for (std::uint32_t t = 0; t < g_.tables.size(); ++t) g_.tables[t].origin = t;
+  }
+
   graph& g_;
+  const pipeline_options& options_;
 };
 
 }  // namespace
@@ -75,7 +90,7 @@ graph_size size_of(const graph& g) {
 }
 
 std::vector<pass_report> run_default_pipeline(graph& g, const pipeline_options& options) {
-  runner passes(g);
+  runner passes(g, options);
   passes.run("simplify", simplify);
   passes.run("order_memory_accesses", order_memory_accesses);
   passes.run("merge_registers", merge_registers);

@@ -2,8 +2,10 @@
 // The passes in the order the compiler runs them.
 
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "dataflow/graph.hpp"
@@ -27,6 +29,9 @@ struct pass_report {
 struct pipeline_options {
   unsigned forwarded_writes = 1;   // see forward_memories
   unsigned multiplier_width = 18;  // see expand_arithmetic
+  /// If given, called after each pass with the pass's name and the graphs before and after it, in which registers,
+  /// memories and tables have their `origin`.
+  std::function<void(std::string_view pass, const dataflow::graph& before, const dataflow::graph& after)> observer = {};
 };
 
 /// Runs all passes and tells what each one changed. The result outputs what `g` did (unspecified values count as 0, as

@@ -87,6 +87,35 @@ TEST(pipeline, shrinks_random_graphs) {
   EXPECT_LT(after.register_bits, before.register_bits);
 }
 
+TEST(pipeline, shows_every_pass_to_an_observer) {
+  graph g = random_graph(3);
+  graph last = g;
+  std::vector<std::string> seen;
+  pipeline_options options;
+  options.observer = [&](std::string_view pass, const graph& before, const graph& after) {
+    seen.emplace_back(pass);
+    EXPECT_EQ(print(before), print(last));  // nothing happens in between
+    for (const auto& r : after.registers) {
+      if (r.origin == dataflow::none) continue;
+      ASSERT_LT(r.origin, before.registers.size());
+      EXPECT_EQ(r.name, before.registers[r.origin].name);
+      EXPECT_LE(r.width, before.registers[r.origin].width);
+    }
+    for (const auto& m : after.memories) {
+      unsigned width = 0;
+      for (const dataflow::memory_id origin : m.origins) width += before.memories.at(origin).width;
+      EXPECT_LE(m.width, width);
+      EXPECT_EQ(m.words, before.memories.at(m.origins.at(0)).words);
+    }
+    last = after;
+  };
+  const std::vector<pass_report> log = run_default_pipeline(g, options);
+  EXPECT_FALSE(seen.empty());
+  EXPECT_EQ(print(last), print(g));
+  ASSERT_EQ(seen.size(), log.size());
+  for (std::size_t i = 0; i < log.size(); ++i) EXPECT_EQ(seen[i], log[i].pass);
+}
+
 TEST(pipeline, reports_as_json) {
   const std::vector<pass_report> reports = {{"simplify", {5, 16, 100}, {3, 8, 0}}};
   EXPECT_EQ(
