@@ -15,11 +15,9 @@
 #include <cstdlib>
 #include <deque>
 #include <fstream>
-#include <functional>
 #include <memory>
 #include <random>
 #include <string>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -45,65 +43,112 @@ inline std::string to_hex(const bits& value) {
   return text;
 }
 
-/// Specialise with EPILINE_LEAVES for a struct payload: its members in the order of declaration.
-template <class T>
-struct leaves_of;
-
-// Use at global scope: EPILINE_LEAVES(rgb_t, v.r, v.g, v.b)
-#define EPILINE_LEAVES(type, ...)                              \
-  template <>                                                  \
-  struct epiline::compiler_test::leaves_of<type> {             \
-    static auto tie(type& v) { return std::tie(__VA_ARGS__); } \
-  }
-
-template <class T>
-struct leaf;  // one value of a token: width(), get, set
-
-template <int W>
-struct leaf<ap_uint<W>> {
-  static constexpr unsigned width = W;
-  static bits get(const ap_uint<W>& value) {
-    bits result(W);
-    for (int i = 0; i < W; ++i) result[static_cast<std::size_t>(i)] = bool(value[i]);
-    return result;
-  }
-  static void set(ap_uint<W>& value, const bits& pattern) {
-    value = 0;
-    for (int i = 0; i < W; ++i) value[i] = pattern[static_cast<std::size_t>(i)];
-  }
-};
-template <int W>
-struct leaf<ap_int<W>> {
-  static constexpr unsigned width = W;
-  static bits get(const ap_int<W>& value) { return leaf<ap_uint<W>>::get(ap_uint<W>(value)); }
-  static void set(ap_int<W>& value, const bits& pattern) {
-    ap_uint<W> unsigned_value = 0;
-    leaf<ap_uint<W>>::set(unsigned_value, pattern);
-    value = unsigned_value;
-  }
-};
-template <class T>
-  requires std::is_integral_v<T>
-struct leaf<T> {
-  // In a payload as in memory: a bool takes a byte, of which only the lowest bit is ever 1.
-  static constexpr unsigned width = 8 * sizeof(T);
-  static bits get(T value) {
-    bits result(width);
-    for (unsigned i = 0; i < width; ++i) result[i] = ((static_cast<std::uint64_t>(value) >> i) & 1) != 0;
-    return result;
-  }
-  static void set(T& value, const bits& pattern) {
-    std::uint64_t number = 0;
-    for (unsigned i = 0; i < width; ++i) number |= static_cast<std::uint64_t>(pattern[i]) << i;
-    value = static_cast<T>(std::is_same_v<T, bool> ? number & 1 : number);
-  }
-};
-
 struct field_format {
   std::string signal;
   unsigned width;
 };
 using token = std::vector<bits>;  // one bit vector a field
+
+/// Goes through the values of a payload, in the order of the hardware's signals, and notes their widths, writes them
+/// into a token or takes them from one. One class for all of this, and code that depends on a value's C++ type in as
+/// few and as short functions as possible: random programs have thousands of types, and each has to be compiled.
+class token_visitor {
+ public:
+  enum class mode { format, get, set };
+  token_visitor(mode m, token* t) : mode_(m), token_(t) {}
+
+  /// The values that follow belong to the signal of this name.
+  void begin_field(const char* signal) {
+    if (mode_ == mode::format) format_.push_back({signal, 0});
+    if (mode_ == mode::get) token_->emplace_back();
+    ++field_;
+    at_ = 0;
+  }
+  /// A value of `width` bits in the lowest bits of a built-in type; `is_signed` when it extends by its highest one.
+  template <class Raw>
+  void raw_value(Raw& value, unsigned width, bool is_signed) {
+    if (mode_ == mode::format) format_.back().width += width;
+    if (mode_ == mode::set) value = Raw(0);
+    if (mode_ != mode::format) {
+      const unsigned all = mode_ == mode::set && is_signed ? 8 * sizeof(Raw) : width;
+      bits& field = (*token_)[field_];
+      for (unsigned i = 0; i < all; ++i) {
+        if (mode_ == mode::get) {
+          field.push_back(test(value, i));
+        } else if (field[at_ + std::min(i, width - 1)]) {
+          set_bit(value, i);
+        }
+      }
+    }
+    at_ += width;
+  }
+  [[nodiscard]] const std::vector<field_format>& format() const { return format_; }
+
+ private:
+  template <class Raw>
+  static bool test(const Raw& value, unsigned index) {
+    if constexpr (std::is_class_v<Raw>) {
+      return ((value.word(static_cast<int>(index / 64)) >> (index % 64)) & 1) != 0;
+    } else {
+      return ((value >> index) & 1) != 0;
+    }
+  }
+  template <class Raw>
+  static void set_bit(Raw& value, unsigned index) {
+    if constexpr (std::is_class_v<Raw>) {
+      const int word = static_cast<int>(index / 64);
+      value.set_word(word, value.word(word) | std::uint64_t{1} << (index % 64));
+    } else {
+      value = static_cast<Raw>(value | static_cast<Raw>(Raw{1} << index));
+    }
+  }
+
+  mode mode_;
+  token* token_;
+  std::vector<field_format> format_;
+  std::size_t field_ = static_cast<std::size_t>(-1);
+  std::size_t at_ = 0;
+};
+
+/// Specialise with EPILINE_LEAVES for a struct payload: its members in the order of declaration.
+template <class T>
+struct leaves_of;
+
+// Use at global scope: EPILINE_LEAVES(rgb_t, v.r, v.g, v.b)
+#define EPILINE_LEAVES(type, ...)                                           \
+  template <>                                                               \
+  struct epiline::compiler_test::leaves_of<type> {                          \
+    static void visit(type& v, epiline::compiler_test::token_visitor& to) { \
+      epiline::compiler_test::visit_values(to, __VA_ARGS__);                \
+    }                                                                       \
+  }
+
+template <int W, bool S>
+void visit_value(ap::ap_int_base<W, S>& value, token_visitor& to) {
+  auto raw = value.to_raw();
+  to.raw_value(raw, W, S);
+  value = ap::ap_int_base<W, S>::from_raw(raw);
+}
+// In a payload as in memory: a bool takes a byte, of which only the lowest bit is ever 1.
+inline void visit_value(bool& value, token_visitor& to) {
+  std::uint8_t byte = value ? 1 : 0;
+  to.raw_value(byte, 8, false);
+  value = (byte & 1) != 0;
+}
+template <class T>
+  requires std::is_integral_v<T>
+void visit_value(T& value, token_visitor& to) {
+  to.raw_value(value, 8 * sizeof(T), std::is_signed_v<T>);
+}
+template <class T>
+  requires requires(T t, token_visitor v) { leaves_of<T>::visit(t, v); }
+void visit_value(T& value, token_visitor& to) {
+  leaves_of<T>::visit(value, to);
+}
+template <class... T>
+void visit_values(token_visitor& to, T&... values) {
+  (visit_value(values, to), ...);
+}
 
 /// A payload with AXI4-Stream sidebands.
 template <class T>
@@ -114,78 +159,40 @@ concept axis_beat = requires(T t) {
   t.last;
 };
 
+/// All values of a payload, signal by signal.
 template <class T>
-struct payload {
-  static std::vector<field_format> format() { return {{"tdata", leaf<T>::width}}; }
-  static token get(const T& value) { return {leaf<T>::get(value)}; }
-  static void set(T& value, const token& t) { leaf<T>::set(value, t[0]); }
-};
-
+void visit_payload(T& value, token_visitor& to) {
+  to.begin_field("tdata");
+  if constexpr (axis_beat<T>) {
+    const auto side_channel = [&](const char* signal, auto& member) {
+      to.begin_field(signal);
+      visit_value(member, to);
+    };
+    visit_value(value.data, to);
+    side_channel("tkeep", value.keep);
+    side_channel("tstrb", value.strb);
+    if constexpr (requires { value.user; }) side_channel("tuser", value.user);
+    side_channel("tlast", value.last);
+    if constexpr (requires { value.id; }) side_channel("tid", value.id);
+    if constexpr (requires { value.dest; }) side_channel("tdest", value.dest);
+  } else {
+    visit_value(value, to);
+  }
+}
 template <class T>
-  requires requires(T t) { leaves_of<T>::tie(t); }
-struct payload<T> {
-  static std::vector<field_format> format() {
-    T value{};
-    unsigned width = 0;
-    std::apply([&](auto&... member) { ((width += leaf<std::remove_cvref_t<decltype(member)>>::width), ...); },
-               leaves_of<T>::tie(value));
-    return {{"tdata", width}};
-  }
-  static token get(T value) {
-    bits all;
-    const auto append = [&](auto& member) {
-      const bits part = leaf<std::remove_cvref_t<decltype(member)>>::get(member);
-      all.insert(all.end(), part.begin(), part.end());
-    };
-    std::apply([&](auto&... member) { (append(member), ...); }, leaves_of<T>::tie(value));
-    return {all};
-  }
-  static void set(T& value, const token& t) {
-    std::ptrdiff_t at = 0;
-    const auto take = [&](auto& member) {
-      using member_t = std::remove_cvref_t<decltype(member)>;
-      const auto begin = t[0].begin() + at;
-      at += leaf<member_t>::width;
-      leaf<member_t>::set(member, bits(begin, t[0].begin() + at));
-    };
-    std::apply([&](auto&... member) { (take(member), ...); }, leaves_of<T>::tie(value));
-  }
-};
-
-template <axis_beat T>
-struct payload<T> {
-  /// Calls `visit(signal, member)` for every side channel the type has.
-  template <class Beat, class Visitor>
-  static void for_each(Beat& v, Visitor&& visit) {
-    visit("tdata", v.data);
-    visit("tkeep", v.keep);
-    visit("tstrb", v.strb);
-    if constexpr (requires { v.user; }) visit("tuser", v.user);
-    visit("tlast", v.last);
-    if constexpr (requires { v.id; }) visit("tid", v.id);
-    if constexpr (requires { v.dest; }) visit("tdest", v.dest);
-  }
-  static std::vector<field_format> format() {
-    std::vector<field_format> result;
-    T value{};
-    for_each(value, [&](const char* signal, auto& member) {
-      result.push_back({signal, payload<std::remove_cvref_t<decltype(member)>>::format()[0].width});
-    });
-    return result;
-  }
-  static token get(T value) {
-    token result;
-    for_each(value, [&](const char*, auto& member) {
-      result.push_back(payload<std::remove_cvref_t<decltype(member)>>::get(member)[0]);
-    });
-    return result;
-  }
-  static void set(T& value, const token& t) {
-    std::size_t i = 0;
-    for_each(value,
-             [&](const char*, auto& member) { payload<std::remove_cvref_t<decltype(member)>>::set(member, {t[i++]}); });
-  }
-};
+std::vector<field_format> format_of() {
+  T value{};
+  token_visitor to(token_visitor::mode::format, nullptr);
+  visit_payload(value, to);
+  return to.format();
+}
+template <class T>
+token token_of(T value) {
+  token result;
+  token_visitor to(token_visitor::mode::get, &result);
+  visit_payload(value, to);
+  return result;
+}
 
 /// One port as written to the file.
 struct channel {
@@ -202,56 +209,67 @@ class session {
   session(const session&) = delete;
   session& operator=(const session&) = delete;
 
-  template <class T>
-  class input_stream {
+  /// What does not depend on the type of the tokens.
+  class port {
    public:
-    input_stream(channel& c, const std::string& name) : stream(name.c_str()), channel_(c) {}
+    explicit port(channel& c) : channel_(c) {}
+    port(const port&) = delete;
+    port& operator=(const port&) = delete;
+    virtual ~port() = default;
+    virtual void finish(session& s) = 0;
+
+   protected:
+    channel& channel_;
+  };
+
+  template <class T>
+  class input_stream final : public port {
+   public:
+    explicit input_stream(channel& c) : port(c), stream(c.name.c_str()) {}
     void push(const T& value) {
       stream.write(value);
-      channel_.tokens.push_back(payload<T>::get(value));
+      this->channel_.tokens.push_back(token_of<T>(value));
     }
     /// Takes the tokens that were not read out again: how many a program reads is sometimes known only afterwards.
     void take_back() {
       while (!stream.empty()) {
         static_cast<void>(stream.read());
-        channel_.tokens.pop_back();
+        this->channel_.tokens.pop_back();
       }
     }
+    void finish(session& s) override { s.expect(stream.empty(), "unread tokens in " + this->channel_.name); }
     hls::stream<T> stream;
-
-   private:
-    channel& channel_;
   };
 
   template <class T>
-  class output_stream {
+  class output_stream final : public port {
    public:
-    output_stream(channel& c, const std::string& name) : stream(name.c_str()), channel_(c) {}
+    explicit output_stream(channel& c) : port(c), stream(c.name.c_str()) {}
     /// Takes all tokens written since the last time.
     std::vector<T> drain() {
       std::vector<T> result;
       while (!stream.empty()) {
         result.push_back(stream.read());
-        channel_.tokens.push_back(payload<T>::get(result.back()));
+        this->channel_.tokens.push_back(token_of<T>(result.back()));
       }
       return result;
     }
+    void finish(session&) override {
+      while (!stream.empty()) this->channel_.tokens.push_back(token_of<T>(stream.read()));
+    }
     hls::stream<T> stream;
-
-   private:
-    channel& channel_;
   };
 
   template <class T>
   input_stream<T>& input(const std::string& name) {
-    auto made = std::make_shared<input_stream<T>>(add(name, "input", "stream", payload<T>::format()), name);
-    at_end_.push_back([this, made, name] { expect(made->stream.empty(), "unread tokens in " + name); });
+    auto* made = new input_stream<T>(add(name, "input", "stream", format_of<T>()));
+    ports_.emplace_back(made);
     return *made;
   }
   template <class T>
   output_stream<T>& output(const std::string& name) {
-    auto made = std::make_shared<output_stream<T>>(add(name, "output", "stream", payload<T>::format()), name);
-    at_end_.push_back([made] { made->drain(); });
+    auto* made = new output_stream<T>(add(name, "output", "stream", format_of<T>()));
+    ports_.emplace_back(made);
     return *made;
   }
 
@@ -261,8 +279,9 @@ class session {
     unsigned width;
     bits value;
     template <class T>
-    argument(std::string n, const T& v) : name(std::move(n)), width(leaf<T>::width), value(leaf<T>::get(v)) {
-      if (std::is_same_v<T, bool>) value.resize(width = 1);  // a scalar has exactly its bits
+    argument(std::string n, const T& v) : name(std::move(n)), value(token_of<T>(v)[0]) {
+      if (std::is_same_v<T, bool>) value.resize(1);  // a scalar has exactly its bits
+      width = static_cast<unsigned>(value.size());
     }
   };
   void call(const std::vector<argument>& arguments) {
@@ -294,18 +313,10 @@ class session {
   /// bit).
   template <class T>
   T any() {
-    token t;
-    for (const field_format& f : payload<T>::format()) {
-      const unsigned style = static_cast<unsigned>(random_() % 10);
-      bits b(f.width);
-      for (std::size_t i = 0; i < b.size(); ++i) {
-        const bool top = i + 1 == b.size();
-        b[i] = style == 0 ? false : style == 1 ? true : style == 2 ? top : style == 3 ? !top : (random_() & 1) != 0;
-      }
-      t.push_back(b);
-    }
+    token t = any_token(format_of<T>());
     T value{};
-    payload<T>::set(value, t);
+    token_visitor to(token_visitor::mode::set, &t);
+    visit_payload(value, to);
     return value;
   }
 
@@ -328,7 +339,7 @@ class session {
 
   /// Checks that nothing is left unread and writes the file. False if anything was wrong.
   bool finish(const std::string& directory) {
-    for (const auto& step : at_end_) step();
+    for (const auto& made : ports_) made->finish(*this);
     std::ofstream file(directory + "/" + name_ + ".tokens");
     for (const channel& c : channels_) {
       file << "port " << c.name << ' ' << c.direction << ' ' << c.kind;
@@ -346,6 +357,19 @@ class session {
   }
 
  private:
+  token any_token(const std::vector<field_format>& format) {
+    token t;
+    for (const field_format& f : format) {
+      const unsigned style = static_cast<unsigned>(random_() % 10);
+      bits b(f.width);
+      for (std::size_t i = 0; i < b.size(); ++i) {
+        const bool top = i + 1 == b.size();
+        b[i] = style == 0 ? false : style == 1 ? true : style == 2 ? top : style == 3 ? !top : (random_() & 1) != 0;
+      }
+      t.push_back(b);
+    }
+    return t;
+  }
   channel* find(const std::string& name) {
     for (channel& c : channels_) {
       if (c.name == name) return &c;
@@ -360,7 +384,7 @@ class session {
   std::string name_;
   std::mt19937_64 random_;
   std::deque<channel> channels_;  // a deque: the streams hold references
-  std::vector<std::function<void()>> at_end_;
+  std::vector<std::unique_ptr<port>> ports_;
   bool failed_ = false;
 };
 
