@@ -26,6 +26,7 @@
 #include "frontend/frontend.hpp"
 #include "frontend/reproducer.hpp"
 #include "passes/pipeline.hpp"
+#include "prove/session.hpp"
 #include "schedule/balance_fifos.hpp"
 #include "schedule/schedule.hpp"
 
@@ -45,6 +46,8 @@ struct command_line {
   std::string depfile;
   std::vector<std::string> explain;  // a signal, and the folder of the Verilog it stands in; empty: compile
   std::string crash;
+  double prove_seconds = 10;  // for a pass
+  bool prove = false;
   bool axi_lite = false;
   bool quiet = false;
 };
@@ -164,6 +167,16 @@ std::map<std::string, std::string> read_sources(const dataflow::network& network
   return sources;
 }
 
+/// Writes proof.json; nothing else is written when a pass was refuted.
+void write_proofs(const prove::session& proofs, output_folder& output) {
+  output.write("proof.json", proofs.to_json().dump(2) + "\n");
+  if (!proofs.refuted()) return;
+  output.commit();
+  throw usage_error(
+      "a pass changed what the program does (see above, and proof.json): this is a mistake in the compiler or in its "
+      "proofs; please report it with the source");
+}
+
 class stopwatch {
  public:
   double lap() {
@@ -218,9 +231,17 @@ void run(const command_line& given) {
   const double frontend_seconds = watch.lap();
 
   std::vector<nlohmann::json> pass_logs;
-  for (dataflow::graph& graph : network.processes)
-    pass_logs.push_back(passes::to_json(passes::run_default_pipeline(
-        graph, {.forwarded_writes = block_memory_latency, .multiplier_width = model.parameters().multiplier_width})));
+  prove::session proofs({given.prove_seconds}, [](const std::string& line) { std::cout << line << std::endl; });
+  for (dataflow::graph& graph : network.processes) {
+    passes::pipeline_options options{.forwarded_writes = block_memory_latency,
+                                     .multiplier_width = model.parameters().multiplier_width};
+    if (given.prove)
+      options.observer = [&](std::string_view pass, const dataflow::graph& before, const dataflow::graph& after) {
+        proofs.pass_ran(graph.name, pass, before, after);
+      };
+    pass_logs.push_back(passes::to_json(passes::run_default_pipeline(graph, options)));
+  }
+  if (given.prove) write_proofs(proofs, output);
   if (const std::string violation = dataflow::find_violation(network); !violation.empty())
     throw std::logic_error("the passes made an ill-formed graph: " + violation);
   const double pass_seconds = watch.lap();
@@ -300,6 +321,10 @@ int main(int argc, char** argv) {
   app.add_flag(
       "--axi-lite", given.axi_lite,
       "put the scalar arguments into registers behind an AXI4-Lite slave, with NAME_registers.h, .json and .md");
+  app.add_flag("--prove", given.prove, "prove by an SMT solver that each pass keeps what the program does: proof.json");
+  app.add_option("--prove-seconds", given.prove_seconds, "time for the proof of one pass")
+      ->check(CLI::Range(0.001, 1e6))
+      ->capture_default_str();
   app.add_option("--depfile", given.depfile, "write the files read, as a Makefile rule, for build systems");
   app.add_option("--crash", given.crash)->group("");  // hidden: for the tests of the crash report
   app.add_option("--explain", given.explain, "say which source lines a name in the Verilog of FOLDER comes from")

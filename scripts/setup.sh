@@ -14,7 +14,7 @@ packages=(
   zlib1g-dev libzstd-dev libxml2-dev
   # libraries
   liblemon-dev libopencv-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libfmt-dev libgtest-dev libgmock-dev
-  libbenchmark-dev
+  libbenchmark-dev libz3-dev
   # hardware tools; those of scripts/fpga.sh that are not pinned packages of PyPI, which python3-venv is for
   verilator yosys iverilog
   nextpnr-ice40 fpga-icestorm openfpgaloader python3-venv

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <map>
+#include <numeric>
 #include <vector>
 
 #include "passes/builder.hpp"
@@ -73,15 +74,29 @@ class numbering {
   std::uint32_t count_ = 0;
 };
 
+/// The first register of the class of each.
+std::vector<register_id> first_of_classes(const std::vector<std::uint32_t>& class_of) {
+  std::map<std::uint32_t, register_id> first;
+  std::vector<register_id> representative;
+  for (register_id r = 0; r < class_of.size(); ++r)
+    representative.push_back(first.try_emplace(class_of[r], r).first->second);
+  return representative;
+}
+
 }  // namespace
+
+std::vector<register_id> first_equal_registers(const graph& g) {
+  numbering numbers(g);
+  if (numbers.refine()) return first_of_classes(numbers.class_of());
+  std::vector<register_id> each(g.registers.size());
+  std::iota(each.begin(), each.end(), 0);
+  return each;
+}
 
 void merge_registers(graph& g) {
   numbering numbers(g);
   if (!numbers.refine()) return;
-  std::map<std::uint32_t, register_id> first;
-  std::vector<register_id> representative;
-  for (register_id r = 0; r < g.registers.size(); ++r)
-    representative.push_back(first.try_emplace(numbers.class_of()[r], r).first->second);
+  const std::vector<register_id> representative = first_of_classes(numbers.class_of());
   rebuild(g, [&](builder& b, node n, node_id) {
     if (n.kind == operation::register_value) n.object = representative[n.object];
     return b.make(std::move(n));
