@@ -25,6 +25,7 @@
 #include "emit/signals.hpp"
 #include "frontend/frontend.hpp"
 #include "frontend/reproducer.hpp"
+#include "passes/foresee_reads.hpp"
 #include "passes/pipeline.hpp"
 #include "prove/session.hpp"
 #include "schedule/balance_fifos.hpp"
@@ -150,6 +151,24 @@ schedule::result find_schedule(const dataflow::graph& graph, const schedule::del
   }
 }
 
+/// Schedules `graph`, and foresees its reads if that costs neither period nor clocks between iterations.
+schedule::result schedule_process(dataflow::graph& graph, const schedule::delay_model& model, const command_line& given,
+                                  double period, unsigned allowed_by_source) {
+  const schedule::result plain = find_schedule(graph, model, given, period, allowed_by_source);
+  dataflow::graph foreseen = graph;
+  passes::foresee_reads(foreseen);
+  try {
+    const schedule::options same{plain.period, plain.initiation_interval};
+    schedule::result found = given.scheduler == "random"
+                                 ? schedule::make_random_schedule(foreseen, model, same, given.seed)
+                                 : schedule::make_schedule(foreseen, model, same);
+    graph = std::move(foreseen);
+    return found;
+  } catch (const schedule::infeasible&) {
+    return plain;
+  }
+}
+
 std::string dependency_file(const std::string& target, const std::vector<std::string>& files) {
   std::string text = target + ":";
   for (const std::string& file : files) text += " \\\n  " + file;
@@ -248,7 +267,7 @@ void run(const command_line& given) {
 
   std::vector<schedule::result> schedules;
   for (std::size_t i = 0; i < network.processes.size(); ++i)
-    schedules.push_back(find_schedule(network.processes[i], model, given, period, lowered[i].initiation_interval));
+    schedules.push_back(schedule_process(network.processes[i], model, given, period, lowered[i].initiation_interval));
   std::vector<bool> may_grow;
   for (const frontend::internal_stream& stream : split.streams) may_grow.push_back(!stream.depth_given);
   schedule::balance_fifos(network, schedules, may_grow);

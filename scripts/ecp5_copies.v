@@ -6,7 +6,6 @@ module ecp5_copy #(
   parameter WIDTH = 1
 ) (
   input  wire             clk,
-  input  wire             clear,
   input  wire [WIDTH-1:0] d,
   output wire [WIDTH-1:0] q
 );
@@ -14,9 +13,9 @@ module ecp5_copy #(
   generate
     for (i = 0; i < WIDTH; i = i + 1) begin : bits
       TRELLIS_FF #(
-        .GSR("DISABLED"), .CEMUX("1"), .CLKMUX("CLK"), .LSRMUX("LSR"), .SRMODE("LSR_OVER_CE"), .REGSET("RESET")
+        .GSR("DISABLED"), .CEMUX("1"), .CLKMUX("CLK"), .LSRMUX("LSR"), .REGSET("RESET")
       ) flip_flop (
-        .CLK(clk), .LSR(clear), .DI(d[i]), .Q(q[i])
+        .CLK(clk), .LSR(1'b0), .DI(d[i]), .Q(q[i])
       );
     end
   endgenerate

@@ -67,7 +67,12 @@ class color_sad {
     }
     const auto entering = differences(pixels_.left, pixels_.right, entering_right_, at);
     const auto leaving = differences(pixels_.oldest_left, pixels_.oldest_right, leaving_right_, at);
-    return rows_.step(columns_.step(entering, leaving, at.column, at.group), restarts && at.column.first_row);
+    auto newest = columns_.step(entering, leaving, at.column, at.group);
+    const bool restart = restarts && at.column.first_row;
+    for (int lane = 0; lane < lanes; ++lane) {
+      for (int d = 0; d < levels; ++d) newest.at[lane][d] = restart ? typename rows::column_t(0) : newest.at[lane][d];
+    }
+    return rows_.step(newest, restart);
   }
 
  private:

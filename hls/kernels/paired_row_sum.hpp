@@ -37,7 +37,8 @@ class paired_row_sum {
     level_array<column_t, lanes, levels> single;
   };
 
-  result step(const column_beat& newest) {
+  /// `restart`: as row_sum takes it; here is nothing to set right.
+  result step(const column_beat& newest, bool /*restart*/) {
 #pragma HLS INLINE
     pairs_t pairs[new_pairs][levels];  // the r pairs that end with pair `pair` of the beat
     for (int pair = 0; pair < new_pairs; ++pair) {

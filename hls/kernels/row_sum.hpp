@@ -68,15 +68,11 @@ class row_sum {
     return result;
   }
 
-  /// `restart` during a whole row makes the state agree with itself, whatever it was: what that row leaves in the
-  /// window is 0, and so is the sum.
+  /// `restart` during a whole row of columns of 0 makes the state agree with itself, whatever it was: what that row
+  /// leaves in the window is 0, and so is the sum.
   costs step(const column_beat& newest, bool restart) {
 #pragma HLS INLINE
-    column_beat kept;
-    for (int lane = 0; lane < lanes; ++lane) {
-      for (int d = 0; d < levels; ++d) kept.at[lane][d] = restart ? column_t(0) : newest.at[lane][d];
-    }
-    const costs result = step(kept);
+    const costs result = step(newest);
     for (int d = 0; d < levels; ++d) sum_[0][d] = restart ? cost_t(0) : sum_[0][d];
     return result;
   }

@@ -70,8 +70,8 @@ void adaptive_ca_frame(hls::stream<typename adaptive_ca_interface<Config>::video
   constexpr int lanes = Config::pixels_per_beat;
   constexpr int radius = sad::window_radius;
 
-  // State lives on from frame to frame: calls follow one another without a bubble. What a frame writes before it reads
-  // it needs no reset, which would cost wires; running sums must agree with what they are sums of, from the start.
+  // State lives on from frame to frame: calls follow one another without a bubble. A frame writes it before it reads
+  // it, so it needs no reset, which would cost wires all over the device.
   static rows lines;
   static typename rows::columns columns;
   static variation_t variation;
@@ -87,13 +87,17 @@ void adaptive_ca_frame(hls::stream<typename adaptive_ca_interface<Config>::video
 #pragma HLS RESET variable = variation off
 #pragma HLS RESET variable = choice off
 #pragma HLS RESET variable = choice_a_beat_ago off
+#pragma HLS RESET variable = matcher off
 #pragma HLS RESET variable = best off
 #pragma HLS RESET variable = winners off
+#pragma HLS RESET variable = filter off
 
   const typename frame_raster::beats_t beats = (width + (lanes - 1)) / lanes;
   frame_raster raster(beats, height);
   level_group<Config> group;
-  typename frame_raster::ends ends_before = {false, false};  // as the iteration before saw them
+  // What stands in the delay lines at power-up must not reach the output: nothing is written before they have been
+  // filled.
+  ap_uint<window::bits_for(schedule::flush_beats)> until_filled = schedule::flush_beats;
   bool more = true;
   do {
 #pragma HLS PIPELINE II = 1
@@ -174,13 +178,13 @@ void adaptive_ca_frame(hls::stream<typename adaptive_ca_interface<Config>::video
     filter_at.marks.in_frame = filter_at.in_frame[0];
     filter_at.marks.first_beat = raster.row() == schedule::padding_rows && centre_beat == 0;
     filter_at.marks.last_of_row = centre_beat == beats - 1;
-    const auto ends = raster.ends_here();
     if (group.last()) {
       const auto found = filter.step(winner, filter_at, automaton, ring);
-      if (found.marks.in_frame) disparity.write(output_beat<Config>(found));
-      more = raster.advance(level_groups<Config>::count == 1 ? ends : ends_before);
+      const bool filled = until_filled == 0;
+      if (!filled) until_filled = until_filled - 1;
+      if (filled && found.marks.in_frame) disparity.write(output_beat<Config>(found));
+      more = raster.advance();
     }
-    ends_before = ends;
     group.advance();
   } while (more);
 }

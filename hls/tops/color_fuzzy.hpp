@@ -89,7 +89,6 @@ void color_fuzzy_frame(hls::stream<typename color_fuzzy_interface<Config>::video
   // What stands in the delay lines at power-up must not reach the output: nothing is written before they have been
   // filled.
   ap_uint<window::bits_for(schedule::flush_beats)> until_filled = schedule::flush_beats;
-  typename frame_raster::ends ends_before = {false, false};  // as the iteration before saw them
   bool more = true;
   do {
 #pragma HLS PIPELINE II = 1
@@ -130,7 +129,6 @@ void color_fuzzy_frame(hls::stream<typename color_fuzzy_interface<Config>::video
 
     const auto confident = unique.step(costs, found, lowest, uniqueness, group);
     const auto agreed = agreement.step(confident.costs, confident.found, left_right, group);
-    const auto ends = raster.ends_here();
     // From here on nothing depends on the level: one step a beat.
     if (group.last()) {
       const auto once = first_pass.step(agreed, fuzzy >= 1, careful_fill);
@@ -138,9 +136,8 @@ void color_fuzzy_frame(hls::stream<typename color_fuzzy_interface<Config>::video
       const bool filled = until_filled == 0;
       if (!filled) until_filled = until_filled - 1;
       if (filled && twice.marks.in_frame) disparity.write(output_beat<Config>(twice));
-      more = raster.advance(level_groups<Config>::count == 1 ? ends : ends_before);
+      more = raster.advance();
     }
-    ends_before = ends;
     group.advance();
   } while (more);
 }

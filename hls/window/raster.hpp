@@ -26,11 +26,21 @@ class raster {
 
   /// Begins a frame of `beats` x `rows` (both at least 1).
   raster(beats_t beats, rows_t rows)
-      : beat_(0), row_(0), row_ends_(false), in_rows_(true), in_columns_(true), in_frame_(true), in_flush_(false) {
-    last_frame_beat_ = beats - 1;
+      : beat_(0),
+        row_(0),
+        row_ends_(false),
+        columns_end_(beats == 1),
+        frame_rows_end_(false),
+        padding_rows_end_(false),
+        in_rows_(true),
+        in_columns_(true),
+        in_frame_(true),
+        in_flush_(false) {
+    one_beat_ = beats == 1;
+    last_frame_beat_but_one_ = beats - 2;
     last_frame_row_ = rows - 1;
     last_padding_row_ = rows + Schedule::padding_rows - 1;
-    const beat_t wanted = last_frame_beat_ + Schedule::padding_beats;
+    const beat_t wanted = beats - 1 + Schedule::padding_beats;
     const beat_t last_row_beat =
         wanted < Schedule::minimum_row_beats - 1 ? beat_t(Schedule::minimum_row_beats - 1) : wanted;
     last_row_beat_but_one_ = last_row_beat - 1;
@@ -44,52 +54,53 @@ class raster {
   bool in_frame() const { return in_frame_; }
   bool in_flush() const { return in_flush_; }
 
-  /// What ends with a beat.
-  struct ends {
-    bool row;
-    bool columns;
-  };
-  ends ends_here() const { return {row_ends_, beat_ == last_frame_beat_}; }
-
   /// Goes on to the next beat; false after the last one.
-  bool advance() { return advance(ends_here()); }
-  /// `here`: what ends_here() said of this beat. A beat of several iterations may have asked in an earlier one, which
-  /// leaves less to do between two beats.
-  bool advance(ends here) {
-    const bool more = !(here.row && in_flush_);
-    if (here.row) {
-      in_rows_ = in_rows_ && row_ != last_frame_row_;
-      if (row_ == last_padding_row_) in_flush_ = true;
+  bool advance() {
+    const bool more = !(row_ends_ && in_flush_);
+    // A row has two beats at least: what its first beat finds out is there when the row ends.
+    const bool frame_rows_end = row_ == last_frame_row_;
+    const bool padding_rows_end = row_ == last_padding_row_;
+    if (row_ends_) {
+      if (frame_rows_end_) in_rows_ = false;
+      in_frame_ = in_rows_;
+      if (padding_rows_end_) in_flush_ = true;
       row_ = row_ + 1;
       row_ends_ = false;
       beat_ = 0;
       in_columns_ = true;
-      in_frame_ = in_rows_;
+      columns_end_ = one_beat_;
     } else {
       row_ends_ = in_flush_ ? beat_ == Schedule::flush_beats - 2 : beat_ == last_row_beat_but_one_;
-      beat_ = beat_ + 1;
-      if (here.columns) {
+      if (columns_end_) {
         in_columns_ = false;
         in_frame_ = false;
       }
+      columns_end_ = beat_ == last_frame_beat_but_one_;
+      beat_ = beat_ + 1;
     }
+    frame_rows_end_ = frame_rows_end;
+    padding_rows_end_ = padding_rows_end;
     return more;
   }
 
  private:
   // Where the walk is: every flag is a register of its own, so that what depends on it (the reading of streams) does
-  // not wait for a comparison.
+  // not wait for a comparison. What ends is known a beat before: whether there is another iteration hangs on it.
   beat_t beat_;
   row_t row_;
-  bool row_ends_;  // known a beat before: whether there is another iteration hangs on it
+  bool row_ends_;
+  bool columns_end_;
+  bool frame_rows_end_;    // with this row
+  bool padding_rows_end_;  // with this row
   bool in_rows_;
   bool in_columns_;
   bool in_frame_;
   bool in_flush_;
   // Constants of the frame, which nothing changes on the way: their making may take its time before the first beat.
   // Comparing for equality is quicker than for order.
-  beat_t last_row_beat_but_one_;  // of every row but the flush
-  beat_t last_frame_beat_;
+  beat_t last_row_beat_but_one_;    // of every row but the flush
+  beat_t last_frame_beat_but_one_;  // of one beat: a beat that no row reaches
+  bool one_beat_;                   // a row of the frame
   row_t last_frame_row_;
   row_t last_padding_row_;
 };

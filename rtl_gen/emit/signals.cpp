@@ -91,6 +91,7 @@ const std::vector<meaning>& meanings() {
         // Around a port.
         {"_token", "the token that the next iteration takes from '{0}'"},
         {"_there", "1 when there is a token of '{0}'"},
+        {"_served", "1 when the next iteration need not wait for a token of '{0}'"},
         {"_(first|second)", "one of the two registers that take tokens of '{0}' in turn"},
         {"_fills_second", "1 when the next token of '{0}' goes into the second register"},
         {"_reads_second", "1 when the next token of '{0}' comes from the second register"},

@@ -84,16 +84,12 @@ module epiline_copy #(
   parameter WIDTH = 1
 ) (
   input  wire             clk,
-  input  wire             clear,
   input  wire [WIDTH-1:0] d,
   output wire [WIDTH-1:0] q
 );
   (* keep = "true", syn_preserve = 1, dont_merge *)
-  reg [WIDTH-1:0] bits;
-  always @(posedge clk) begin
-    if (clear) bits <= {WIDTH{1'b0}};
-    else bits <= d;
-  end
+  reg [WIDTH-1:0] bits = {WIDTH{1'b0}};
+  always @(posedge clk) bits <= d;
   assign q = bits;
 endmodule
 /* verilator lint_on DECLFILENAME */
@@ -166,13 +162,12 @@ class writer {
   struct flip_flops {
     std::string name;
     unsigned width = 1;
-    bool cleared = false;  // by the reset
     dataflow::source_location where = {};
   };
   template <class Source>
   void write_flip_flops(const flip_flops& wanted, const copies& all, const Source& source, move_list& moves);
   void write_moves(const move_list& moves);
-  void write_copy(const std::string& name, unsigned width, const std::string& clear, const std::string& source);
+  void write_copy(const std::string& name, unsigned width, const std::string& source);
   void write_logic(int stage);
   void write_issue();
   void write_state(int stage);
@@ -189,9 +184,15 @@ class writer {
   void collect_lines(node_id id, std::vector<dataflow::source_location>& lines) const;
 
   bool is_sampled(const dataflow::port& port) const { return options_.axi_lite && port.kind == port_kind::call; }
-  bool has_hold() const { return s_.hold > 0 || s_.initiation_interval > 1; }
   int most_hold() const { return std::max(s_.hold, s_.initiation_interval - 1); }
   int settle_clocks() const { return s_.hold - s_.commit; }
+  /// After a reset nothing is issued until what was in flight has left the pipeline, state has its initial values and
+  /// what is computed from settled values is right: then valid bits need no reset, which would go to every stage.
+  int reset_clocks() const { return std::max(plan_.last_valid, settle_clocks()) + 1 + after_state_reset; }
+  static constexpr int after_state_reset =
+      4;  // clocks from the end of `resetting`, of which two rows of copies take two
+  unsigned hold_bits() const { return bits_for(std::max(most_hold(), reset_clocks()) + 1); }
+  [[nodiscard]] std::optional<node_id> need_register(dataflow::port_id port) const;
 
   const graph& g_;
   const schedule::result& s_;
@@ -243,10 +244,10 @@ std::string writer::fresh(std::string_view wanted) {
 }
 
 std::string writer::fresh_port(const std::string& wanted) {
-  constexpr const char* suffixes[] = {"_token",   "_first", "_second",      "_fills_second", "_reads_second", "_there",
-                                      "_ready",   "_take",  "_push",        "_fifo",         "_in",           "_out",
-                                      "_word",    "_left",  "_skipped",     "_load",         "_word_there",   "_data",
-                                      "_credits", "_room",  "_credits_next"};
+  constexpr const char* suffixes[] = {"_token",   "_first", "_second",       "_fills_second", "_reads_second", "_there",
+                                      "_ready",   "_take",  "_push",         "_fifo",         "_in",           "_out",
+                                      "_word",    "_left",  "_skipped",      "_load",         "_word_there",   "_data",
+                                      "_credits", "_room",  "_credits_next", "_served"};
   constexpr const char* argument_suffixes[] = {"_registers", "_wanted", "_sample", "_start",
                                                "_hold",      "_keep",   "_slave"};
   std::vector<const char*> used(std::begin(suffixes), std::end(suffixes));
@@ -271,7 +272,7 @@ void writer::reserve_interface() {
     }
   }
   for (const char* name :
-       {"fire", "running", "valid", "hold", "holding", "commit", "state_reset", "early_state_reset"}) {
+       {"fire", "valid", "hold", "holding", "resetting", "may_issue", "commit", "state_reset", "early_state_reset"}) {
     if (!taken_.insert(name).second) {
       throw std::invalid_argument(
           fmt::format("port signal '{}' has the name of a control signal of the module: rename it", name));
@@ -446,10 +447,9 @@ std::string writer::update_bit(node_id condition, int stage) const {
   return copy_of(update_name_.at({condition, stage}), found->second);
 }
 
-/// The reset of state: a clock or two later than that of valid bits and handshakes, which keep iterations out
-/// meanwhile.
+/// The reset of state: some clocks later than that of handshakes, and as long as iterations may be in flight.
 std::string writer::state_reset() const {
-  return plan_.has_reset_rows() ? copy_of("state_reset", plan_.reset_copies) : "rst";
+  return plan_.has_reset_rows() ? copy_of("state_reset", plan_.reset_copies) : "resetting";
 }
 
 /// Flip-flops and their copies. `source` gives the text of what they take over, for the reader that is set.
@@ -459,9 +459,9 @@ void writer::write_flip_flops(const flip_flops& wanted, const copies& all, const
   for (std::size_t copy = 0; copy < all.count(); ++copy) {
     reader_ = all.first_reader[copy];
     if (copy > 0) {
-      write_copy(copy_name(wanted.name, copy), wanted.width, wanted.cleared ? "rst" : "1'b0", source());
+      write_copy(copy_name(wanted.name, copy), wanted.width, source());
     } else {
-      moves.emplace_back(wanted.name, (wanted.cleared ? "~rst & " : "") + source());
+      moves.emplace_back(wanted.name, source());
     }
   }
   reader_ = 0;
@@ -478,7 +478,7 @@ void writer::write_reset_rows() {
   if (!plan_.has_reset_rows()) return;
   title("reset of the state: through two rows of flip-flops, near what they reset");
   move_list moves;
-  write_flip_flops({"early_state_reset", 1}, plan_.early_reset_copies, [] { return std::string("rst"); }, moves);
+  write_flip_flops({"early_state_reset", 1}, plan_.early_reset_copies, [] { return std::string("resetting"); }, moves);
   write_flip_flops(
       {"state_reset", 1}, plan_.reset_copies, [&] { return copy_of("early_state_reset", plan_.early_reset_copies); },
       moves);
@@ -641,12 +641,12 @@ void writer::write_heading() {
 void writer::write_control_declarations() {
   title("control");
   line("  wire fire;                // an iteration is issued in this clock");
-  line("  reg running;              // out of reset");
-  line("  reg [{}:1] valid;          // which stages hold an iteration", plan_.last_valid);
-  if (has_hold()) {
-    line("  reg [{}:0] hold;           // clocks until the next issue may come", bits_for(most_hold() + 1) - 1);
-    line("  reg holding;");
-  }
+  // Nothing is in flight at power-up: memories keep the contents that they were given.
+  line("  reg [{}:1] valid = {};  // which stages hold an iteration", plan_.last_valid, literal(plan_.last_valid, 0));
+  line("  reg [{}:0] hold;           // clocks until the next issue may come", hold_bits() - 1);
+  line("  reg holding;");
+  line("  reg resetting;            // what was in flight at a reset leaves the pipeline");
+  line("  reg may_issue;            // not holding, and outputs have room");
 }
 
 void writer::write_inputs() {
@@ -670,6 +670,9 @@ void writer::write_inputs() {
     line("  reg {0}{1}_first, {1}_second;", range, name);
     line("  reg {0}_fills_second, {0}_reads_second;", name);
     line("  reg {0}_there, {0}_ready;", name);
+    if (need_register(static_cast<dataflow::port_id>(i))) {
+      line("  reg {}_served;  // the next iteration does not wait for this input", name);
+    }
     line("  wire {}_take;", name);
     line("  wire {0}_push = {1} & {0}_ready;", name, signal_name(port, "tvalid"));
     line("  wire {0}{1}_token = {1}_reads_second ? {1}_second : {1}_first;", range, name);
@@ -850,13 +853,13 @@ void writer::write_copies(int stage) {
     const copies& all = plan_.valid_copies[stage];
     for (std::size_t copy = 1; copy < all.count(); ++copy) {
       reader_ = all.first_reader[copy];
-      write_copy(copy_name(fmt::format("valid_s{}", stage), copy), 1, "rst", valid(stage - 1));
+      write_copy(copy_name(fmt::format("valid_s{}", stage), copy), 1, valid(stage - 1));
     }
   }
   for (const auto& [place, all] : plan_.update_bits) {
     if (place.second != stage) continue;
     const auto source = [&] { return fmt::format("{} & {}", valid(stage - 1), operand(place.first, stage - 1)); };
-    write_flip_flops({update_name_.at(place), 1, true, g_.nodes[place.first].where}, all, source, moves);
+    write_flip_flops({update_name_.at(place), 1, g_.nodes[place.first].where}, all, source, moves);
   }
   reader_ = 0;
   for (std::size_t i = 0; i < plan_.lines.size(); ++i) {
@@ -911,11 +914,10 @@ void writer::write_copies(int stage) {
   write_moves(moves);
 }
 
-void writer::write_copy(const std::string& name, unsigned width, const std::string& clear, const std::string& source) {
+void writer::write_copy(const std::string& name, unsigned width, const std::string& source) {
   has_copies_ = true;
   line("  wire {}{};", range_of(width), name);
-  line("  epiline_copy #(.WIDTH({})) {}_register (.clk(clk), .clear({}), .d({}), .q({}));", width, name, clear, source,
-       name);
+  line("  epiline_copy #(.WIDTH({})) {}_register (.clk(clk), .d({}), .q({}));", width, name, source, name);
 }
 
 void writer::write_node(node_id id) {
@@ -1008,59 +1010,86 @@ void writer::write_logic(int stage) {
   }
 }
 
+/// The register that says whether the next iteration reads a token of `port`, if there is one whose next value is known
+/// when an iteration is issued.
+std::optional<node_id> writer::need_register(dataflow::port_id port) const {
+  std::optional<node_id> need;
+  for (const node& n : g_.nodes) {
+    if (n.kind != operation::read || n.object != port) continue;
+    const node& predicate = g_.nodes[n.operands[0]];
+    if (need || predicate.kind != operation::register_value) return std::nullopt;
+    if (s_.register_stage[predicate.object] != 0 || s_.register_update[predicate.object] != 0) return std::nullopt;
+    need = n.operands[0];
+  }
+  return need;
+}
+
 void writer::write_issue() {
-  std::string conditions = "running";
-  std::map<dataflow::port_id, std::vector<node_id>> reads;
-  for (node_id id = 0; id < g_.nodes.size(); ++id) {
-    if (g_.nodes[id].kind == operation::read) reads[g_.nodes[id].object].push_back(id);
-  }
-  if (has_hold()) conditions += " & ~holding";
-  for (const output_fifo& f : plan_.fifos) conditions += fmt::format("\n    & {}_room", port_name_[f.port]);
-  for (const auto& [port, nodes] : reads) {
-    for (const node_id id : nodes) {
-      const node_id predicate = g_.nodes[id].operands[0];
-      if (is_always(predicate)) {
-        conditions += fmt::format("\n    & {}_there", port_name_[port]);
-      } else {
-        conditions += fmt::format("\n    & ({}_there | ~{})", port_name_[port], operand(predicate, 0));
-      }
-    }
-  }
-  line("  assign fire = {};", conditions);
+  std::string conditions = "may_issue";
   for (std::size_t i = 0; i < g_.ports.size(); ++i) {
     if (!g_.ports[i].input) continue;
     const auto port = static_cast<dataflow::port_id>(i);
+    const std::string& name = port_name_[i];
     std::string take;
-    if (const auto found = reads.find(port); found != reads.end()) {
-      for (const node_id id : found->second) {
-        if (!take.empty()) take += " | ";
-        take += operand(g_.nodes[id].operands[0], 0);
-      }
+    bool always = false;
+    for (const node& n : g_.nodes) {
+      if (n.kind != operation::read || n.object != port) continue;
+      always |= is_always(n.operands[0]);
+      if (!take.empty()) take += " | ";
+      take += operand(n.operands[0], 0);
     }
     if (take.empty()) take = "1'b0";
-    line("  assign {}_take = fire & ({});", port_name_[i], take);
-    if (is_sampled(g_.ports[i])) {
-      line("  assign {}_wanted = running{} & ({});", port_name_[i], has_hold() ? " & ~holding" : "", take);
+    line("  assign {}_take = fire & ({});", name, take);
+    if (is_sampled(g_.ports[i])) line("  assign {}_wanted = ~holding & ({});", name, take);
+    const std::optional<node_id> need = is_sampled(g_.ports[i]) ? std::nullopt : need_register(port);
+    if (always) {
+      conditions += fmt::format("\n    & {}_there", name);
+    } else if (need) {
+      // A flip-flop of its own says whether this input is waited for: the issue is one gate behind flip-flops.
+      const dataflow::register_state& r = g_.registers[g_.nodes[*need].object];
+      const std::string now = operand(*need, 0);
+      const std::string later = is_always(r.enable)
+                                    ? operand(r.next, 0)
+                                    : fmt::format("({} ? {} : {})", operand(r.enable, 0), operand(r.next, 0), now);
+      line("  always @(posedge clk) begin");
+      line("    {0}_served <= fire ? {0}_push | ({0}_there & ~({0}_ready & {1})) | ~{2}", name, now, later);
+      line("      : {0}_push | {0}_there | ~{1};", name, now);
+      line("  end");
+      conditions += fmt::format("\n    & {}_served", name);
+    } else if (take != "1'b0") {
+      conditions += fmt::format("\n    & ({}_there | ~({}))", name, take);
     }
   }
-  if (!has_hold()) return;
-  const unsigned width = bits_for(most_hold() + 1);
+  line("  assign fire = {};", conditions);
+
+  const unsigned width = hold_bits();
   const int after_any = s_.initiation_interval - 1;
   const bool waits = g_.patient != none && s_.hold > 0;
   const std::string longest = literal(width, most_hold());
   std::string after = longest;
-  std::string starts = "fire";
+  std::string starts = after_any > 0 ? "fire | " : "";
   if (waits && after_any == 0) {
-    starts = fmt::format("(fire & {})", operand(g_.patient, 0));  // `hold` counts for nothing unless `holding`
+    starts = fmt::format("(fire & {}) | ", operand(g_.patient, 0));  // `hold` counts for nothing unless `holding`
   } else if (waits) {
     after = fmt::format("({} ? {} : {})", operand(g_.patient, 0), longest, literal(width, after_any));
   }
+  std::string room;
+  for (const output_fifo& f : plan_.fifos) room += fmt::format(" & {}_room", port_name_[f.port]);
+  line("  wire holding_next = {}(holding & (hold != {}));", starts, literal(width, 1));
   line("  always @(posedge clk) begin");
-  line("    hold <= fire ? {} : hold - {};", after, literal(width, 1));
-  line("    holding <= {} | (holding & (hold != {}));", starts, literal(width, 1));
+  if (starts.empty()) {
+    line("    hold <= hold - {};", literal(width, 1));
+  } else {
+    line("    hold <= fire ? {} : hold - {};", after, literal(width, 1));
+  }
+  line("    holding <= holding_next;");
+  line("    may_issue <= ~holding_next{};", room);
+  line("    resetting <= resetting & (hold != {});", literal(width, after_state_reset));
   line("    if (rst) begin");
-  line("      hold <= {};", literal(width, std::max(1, settle_clocks())));
+  line("      hold <= {};", literal(width, reset_clocks()));
   line("      holding <= 1'b1;");
+  line("      may_issue <= 1'b0;");
+  line("      resetting <= 1'b1;");
   line("    end");
   line("  end");
 }
@@ -1112,7 +1141,7 @@ void writer::write_state(int stage) {
   for (const register_id r : here) {
     if (!is_reset(g_, s_, r)) continue;
     read_by(r);
-    const std::string reset = s_.register_stage[r] == settled ? "rst" : state_reset();
+    const std::string reset = state_reset();
     if (reset != open) {
       if (!open.empty()) line("    end");
       line("    if ({}) begin", reset);
@@ -1189,7 +1218,7 @@ void writer::write_patient() {
   }
   if (patient.empty()) return;
   title("registers that wait for the pipeline to drain");
-  line("  wire commit = holding & (hold == {});", literal(bits_for(most_hold() + 1), settle_clocks() + 1));
+  line("  wire commit = holding & (hold == {});", literal(hold_bits(), settle_clocks() + 1));
   line("  always @(posedge clk) begin");
   line("    if (commit) begin");
   for (const register_id r : patient) line("      {} <= {};", register_name_[r], pending_name_[r]);
@@ -1201,7 +1230,7 @@ void writer::write_patient() {
                    literal(*g_.registers[r].initial));
   }
   if (!resets.empty()) {
-    line("    if (rst) begin");
+    line("    if ({}) begin", state_reset());
     out_ += resets;
     line("    end");
   }
@@ -1210,14 +1239,8 @@ void writer::write_patient() {
 
 void writer::write_valids() {
   title("valid bits");
-  line("  always @(posedge clk) begin");
-  line("    running <= {};", plan_.has_reset_rows() ? "~(rst | early_state_reset | state_reset)" : "~rst");
-  if (plan_.last_valid > 1) {
-    line("    valid <= rst ? {} : {{valid[{}:1], fire}};", literal(plan_.last_valid, 0), plan_.last_valid - 1);
-  } else {
-    line("    valid <= rst ? 1'd0 : fire;");
-  }
-  line("  end");
+  const std::string before = plan_.last_valid > 1 ? fmt::format("{{valid[{}:1], fire}}", plan_.last_valid - 1) : "fire";
+  line("  always @(posedge clk) valid <= {};", before);
 }
 
 void writer::write_outputs() {
@@ -1259,6 +1282,8 @@ void writer::write_outputs() {
     line("  wire {}_load = ({}_in != {}_out) & ({} | ~{}_word_there);", name, name, name, signal_name(port, "tready"),
          name);
     line("  wire {}{}_data = {};", range_of(port.width), name, data);
+    // The iteration issued in this clock is not counted yet.
+    line("  assign {}_room = {}_credits_next > {};", name, name, literal(counter, 1));
     line("  wire [{}:0] {}_credits_next = {}_credits - {{{}, valid[1]}} + {{{}, {}_left}}{};", counter - 1, name, name,
          literal(counter - 1, 0), literal(counter - 1, 0), name,
          always ? "" : fmt::format(" + {{{}, {}_skipped}}", literal(counter - 1, 0), name));
@@ -1271,16 +1296,14 @@ void writer::write_outputs() {
     line("    {}_left <= {}_load;", name, name);
     if (!always) line("    {}_skipped <= {} & ~({});", name, valid(stage), pushes);
     line("    {}_credits <= {}_credits_next;", name, name);
-    line("    {}_room <= {}_credits_next > {};", name, name, literal(counter, 1));
-    line("    if (rst) begin");
+    line("    if (resetting) begin");
     line("      {}_in <= {};", name, literal(counter, 0));
     line("      {}_out <= {};", name, literal(counter, 0));
-    line("      {}_word_there <= 1'b0;", name);
     line("      {}_left <= 1'b0;", name);
     if (!always) line("      {}_skipped <= 1'b0;", name);
     line("      {}_credits <= {};", name, literal(counter, fifo.depth));
-    line("      {}_room <= 1'b0;", name);
     line("    end");
+    line("    if (rst | resetting) {}_word_there <= 1'b0;", name);
     line("  end");
     line("  assign {} = {}_word_there;", signal_name(port, "tvalid"), name);
     for (const dataflow::field& f : port.fields) {
@@ -1308,7 +1331,7 @@ void writer::write_delay_pointers() {
     line("    delay_{}_out <= (delay_{}_out == {}) ? {} : delay_{}_out + {};", words, words, literal(width, words - 1),
          literal(width, 0), words, literal(width, 1));
   }
-  line("    if (rst) begin");
+  line("    if (resetting) begin");
   for (const auto& [words, used] : lengths) {
     const unsigned width = bits_for(words - 1);
     line("      delay_{}_in <= {};", words, literal(width, 0));
@@ -1343,7 +1366,7 @@ std::string writer::write() {
     const unsigned counter = bits_for(f.depth - 1) + 1;
     line("  reg [{}:0] {}_credits;  // places of the FIFO that nothing in flight may need", counter - 1,
          port_name_[f.port]);
-    line("  reg {}_room;", port_name_[f.port]);
+    line("  wire {}_room;", port_name_[f.port]);
   }
   write_inputs();
   write_reset_rows();
@@ -1381,10 +1404,12 @@ std::vector<signal> writer::signals() const {
     all.push_back({name, "control", what, width, -1, {}});
   };
   control("fire", "1 when an iteration is issued", 1);
-  control("running", "1 outside of the reset", 1);
   control("valid", "which stages hold an iteration", 0);
   control("hold", "clocks until the next issue may come", 0);
   control("holding", "1 while no issue may come", 1);
+  control("holding_next", "the next value of 'holding'", 1);
+  control("may_issue", "1 when nothing but missing tokens keeps the next iteration from being issued", 1);
+  control("resetting", "1 after a reset until what was in flight has left the pipeline", 1);
   control("commit", "1 when registers that wait for the pipeline change", 1);
   if (plan_.has_reset_rows()) {
     control("early_state_reset", "the reset on its way to the state", 1);

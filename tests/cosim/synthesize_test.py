@@ -157,17 +157,16 @@ class synthesize(unittest.TestCase):
 
     def test_keeps_copies_of_a_flip_flop(self):
         copies = """
-module epiline_copy #(parameter WIDTH = 1) (input wire clk, input wire clear, input wire [WIDTH-1:0] d,
-                                           output wire [WIDTH-1:0] q);
+module epiline_copy #(parameter WIDTH = 1) (input wire clk, input wire [WIDTH-1:0] d, output wire [WIDTH-1:0] q);
   reg [WIDTH-1:0] bits;
-  always @(posedge clk) bits <= clear ? 0 : d;
+  always @(posedge clk) bits <= d;
   assign q = bits;
 endmodule
-module top (input wire clk, input wire rst, input wire [2:0] a, output wire [8:0] sum);
+module top (input wire clk, input wire [2:0] a, output wire [8:0] sum);
   reg [2:0] first;
   always @(posedge clk) first <= a;
-  epiline_copy #(.WIDTH(3)) second (.clk(clk), .clear(rst), .d(a), .q(sum[5:3]));
-  epiline_copy #(.WIDTH(3)) third (.clk(clk), .clear(1'b0), .d(a), .q(sum[8:6]));
+  epiline_copy #(.WIDTH(3)) second (.clk(clk), .d(a), .q(sum[5:3]));
+  epiline_copy #(.WIDTH(3)) third (.clk(clk), .d(a), .q(sum[8:6]));
   assign sum[2:0] = first;
 endmodule
 """

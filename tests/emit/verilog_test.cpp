@@ -163,7 +163,8 @@ TEST(throughput, is_one_iteration_a_clock_without_stalls) {
     const std::string folder = scratch_folder("throughput-" + g.name);
     const simulation_result r = simulate(g, emit::emit_verilog(g, model, s), inputs, folder, {});
     ASSERT_EQ(r.problem, "") << folder;
-    EXPECT_LE(r.clocks, 500u + s.depth + 6) << g.name;
+    // The pipeline is filled once, after a reset has waited once for it to drain.
+    EXPECT_LE(r.clocks, 500u + 2 * s.depth + 12) << g.name;
     std::filesystem::remove_all(folder);
   }
 }

@@ -9,6 +9,7 @@
 #include "passes/balance_trees.hpp"
 #include "passes/expand_arithmetic.hpp"
 #include "passes/fold_magnitudes.hpp"
+#include "passes/foresee_reads.hpp"
 #include "passes/forward_memories.hpp"
 #include "passes/merge_registers.hpp"
 #include "passes/narrow_widths.hpp"
@@ -54,6 +55,7 @@ TEST(equivalence, expand_arithmetic) {
 }
 TEST(equivalence, balance_trees) { check(balance_trees); }
 TEST(equivalence, fold_magnitudes) { check(fold_magnitudes); }
+TEST(equivalence, foresee_reads) { check(foresee_reads); }
 TEST(equivalence, order_memory_accesses) { check(order_memory_accesses); }
 TEST(equivalence, forward_memories) {
   for (const unsigned writes : {1u, 3u})

@@ -62,7 +62,7 @@ class a_run(fpga_bench):
         verilog = self.folder / "top.v"
         verilog.write_text(
             "  wire [8:0] sum = a + b;  // counter.cpp:5\n  reg [8:0] sum_s4;\n  wire [8:0] sum_s4_copy12;\n"
-            "  epiline_copy #(.WIDTH(9)) sum_s4_copy12_register (.clk(clk), .clear(1'b0), .d(sum), .q(sum_s4_copy12));\n"
+            "  epiline_copy #(.WIDTH(9)) sum_s4_copy12_register (.clk(clk), .d(sum), .q(sum_s4_copy12));\n"
             "  reg more_enable_4;  // counter.cpp:6\n  wire more_enable_4_copy1;\n",
             encoding="utf-8",
         )
