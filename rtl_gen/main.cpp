@@ -11,11 +11,13 @@
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "check/check.hpp"
 #include "crash_report.hpp"
 #include "dataflow/network_text.hpp"
 #include "emit/network_report.hpp"
@@ -51,6 +53,8 @@ struct command_line {
   bool prove = false;
   bool axi_lite = false;
   bool quiet = false;
+  bool check = false;
+  check::options check_options;
 };
 
 /// Writes that a read-modify-write through a block RAM has in flight: they are forwarded.
@@ -196,6 +200,27 @@ void write_proofs(const prove::session& proofs, output_folder& output) {
       "proofs; please report it with the source");
 }
 
+/// Verilog of a random legal schedule in place of each schedule, with the same period and interval.
+std::string randomly_scheduled(const dataflow::network& network, const schedule::delay_model& model,
+                               const std::vector<schedule::result>& schedules, std::uint64_t seed) {
+  std::vector<schedule::result> others;
+  for (std::size_t i = 0; i < schedules.size(); ++i)
+    others.push_back(schedule::make_random_schedule(
+        network.processes[i], model, {schedules[i].period, schedules[i].initiation_interval}, seed + i));
+  return emit::emit_network(network, model, others).text;
+}
+
+/// The levels below the graph, and the verdict.
+void check_hardware(check::checker& checker, const dataflow::network& network, const schedule::delay_model& model,
+                    const std::vector<schedule::result>& schedules, const std::string& verilog, std::uint64_t seed) {
+  int interval = 1;
+  for (const schedule::result& one : schedules) interval = std::max(interval, one.initiation_interval);
+  checker.see_verilog(network, verilog, static_cast<unsigned>(interval));
+  if (checker.wants("random-schedule"))
+    checker.see_random_schedule(randomly_scheduled(network, model, schedules, seed));
+  if (const std::string difference = checker.finish(); !difference.empty()) throw check::cannot_check(difference);
+}
+
 class stopwatch {
  public:
   double lap() {
@@ -233,6 +258,9 @@ void run(const command_line& given) {
   llvm::LLVMContext context;
   frontend::compiled_source source = frontend::compile(given.source, context);
   crash_on_purpose(given.crash);
+  std::unique_ptr<check::checker> checker;
+  if (given.check) checker = std::make_unique<check::checker>(given.check_options, given.source, std::cout);
+  if (checker) checker->see_source(*source.module);
   frontend::split_top split = frontend::split_into_processes(source, given.source);
   for (const std::string& note : source.notes) std::cerr << note << '\n';
   if (given.axi_lite && split.processes.size() > 1)
@@ -240,13 +268,16 @@ void run(const command_line& given) {
                      fmt::format("--axi-lite: the top '{}' is made of processes (DATAFLOW), whose scalars cannot be in "
                                  "registers yet: leave the option away, and drive the call port",
                                  split.name));
+  if (checker) checker->see_top(split);
   std::vector<frontend::lowered_process> lowered;
   std::vector<dataflow::graph> graphs;
   for (frontend::process_source& process : split.processes) {
     lowered.push_back(frontend::lower(process));
+    if (checker) checker->see_process(lowered.back());
     graphs.push_back(frontend::build_graph(lowered.back(), process.name));
   }
   dataflow::network network = frontend::join_processes(split, lowered, std::move(graphs));
+  if (checker) checker->see_network(network);
   const double frontend_seconds = watch.lap();
 
   std::vector<nlohmann::json> pass_logs;
@@ -254,9 +285,10 @@ void run(const command_line& given) {
   for (dataflow::graph& graph : network.processes) {
     passes::pipeline_options options{.forwarded_writes = block_memory_latency,
                                      .multiplier_width = model.parameters().multiplier_width};
-    if (given.prove)
+    if (given.prove || given.check)
       options.observer = [&](std::string_view pass, const dataflow::graph& before, const dataflow::graph& after) {
-        proofs.pass_ran(graph.name, pass, before, after);
+        if (given.prove) proofs.pass_ran(graph.name, pass, before, after);
+        if (checker) checker->see_pass(static_cast<std::size_t>(&graph - network.processes.data()), pass, after);
       };
     pass_logs.push_back(passes::to_json(passes::run_default_pipeline(graph, options)));
   }
@@ -293,6 +325,7 @@ void run(const command_line& given) {
     output.write_file(given.depfile,
                       dependency_file((fs::path(given.output) / (name + ".v")).string(), source.dependencies));
   output.commit();
+  if (checker) check_hardware(*checker, network, model, schedules, verilog.text, given.seed);
   if (given.quiet) return;
   for (std::size_t i = 0; i < schedules.size(); ++i)
     std::cout << fmt::format("{}: {} operations, {} stages at {:.2f} ns, one iteration every {} clock{}\n",
@@ -304,6 +337,20 @@ void run(const command_line& given) {
       "  {}/{}.v, {}.graph, {}.signals.json, report.json, report.txt, report.html{}\n",
       frontend_seconds, pass_seconds, schedule_seconds, watch.lap(), given.output, name, name, name,
       given.axi_lite ? fmt::format(", {0}_registers.h, {0}_registers.json, {0}_registers.md", name) : "");
+}
+
+/// What the options of --check ask for, beside what it shares with a compilation.
+void prepare_check(command_line& given) {
+  check::options& wanted = given.check_options;
+  if (!given.check) {
+    if (!wanted.stimulus.empty() || !wanted.levels.empty())
+      throw usage_error("--stimulus and --levels are options of --check: give --check too");
+    return;
+  }
+  if (given.axi_lite) throw usage_error("--check drives the call port: leave --axi-lite away");
+  wanted.folder = fs::path(given.output) / "check";
+  wanted.seed = given.seed;
+  wanted.target = given.target;
 }
 
 }  // namespace
@@ -336,7 +383,7 @@ int main(int argc, char** argv) {
   app.add_option("--schedule", given.scheduler, "optimal, or random: any legal one, a test tool")
       ->check(CLI::IsMember({"optimal", "random"}))
       ->capture_default_str();
-  app.add_option("--seed", given.seed, "of the random schedule")->capture_default_str();
+  app.add_option("--seed", given.seed, "of the random schedule, and of what is random in --check")->capture_default_str();
   app.add_flag(
       "--axi-lite", given.axi_lite,
       "put the scalar arguments into registers behind an AXI4-Lite slave, with NAME_registers.h, .json and .md");
@@ -344,6 +391,16 @@ int main(int argc, char** argv) {
   app.add_option("--prove-seconds", given.prove_seconds, "time for the proof of one pass")
       ->check(CLI::Range(0.001, 1e6))
       ->capture_default_str();
+  app.add_flag("--check", given.check,
+               "run every form of the program, native to netlist, with one stimulus, and compare (docs/flow.md)");
+  app.add_option("--stimulus", given.check_options.stimulus, "token file for --check; without it random tokens");
+  app.add_option("--levels", given.check_options.levels, "those that --check runs; without it all whose tools are there")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_option("--tokens", given.check_options.tokens, "random tokens of a stream, or calls, for --check")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  app.add_option("--fault", given.check_options.fault)->group("");  // hidden: for the tests of --check
   app.add_option("--depfile", given.depfile, "write the files read, as a Makefile rule, for build systems");
   app.add_option("--crash", given.crash)->group("");  // hidden: for the tests of the crash report
   app.add_option("--explain", given.explain, "say which source lines a name in the Verilog of FOLDER comes from")
@@ -356,6 +413,7 @@ int main(int argc, char** argv) {
         (given.interval.find_first_not_of("0123456789") != std::string::npos || given.interval.empty() ||
          given.interval.size() > 3 || std::stoi(given.interval) == 0))
       throw usage_error(fmt::format("--ii {}: give a number from 1 to 999, or auto", given.interval));
+    prepare_check(given);
     if (given.explain.empty())
       run(given);
     else
@@ -372,6 +430,8 @@ int main(int argc, char** argv) {
   } catch (const std::invalid_argument& refusal) {
     const std::string text = refusal.what();  // "FILE:LINE: error: TEXT", or a text about an option
     std::cerr << (text.find(": error: ") == std::string::npos ? "error: " : "") << text << '\n';
+  } catch (const check::cannot_check& refusal) {
+    std::cerr << refusal.what() << '\n';
   } catch (const usage_error& refusal) {
     std::cerr << "error: " << refusal.what() << '\n';
   } catch (const std::exception& failure) {

@@ -142,17 +142,6 @@ std::vector<llvm::CallInst*> calls_of(llvm::Module& module, const char* name, co
   return calls;
 }
 
-llvm::Function* find_top(llvm::Module& module, const std::string& top) {
-  const std::size_t scope = top.rfind("::");
-  const std::string base = scope == std::string::npos ? top : top.substr(scope + 2);
-  llvm::Function* found = nullptr;
-  for (llvm::Function& function : module)
-    if (const llvm::DISubprogram* program = function.getSubprogram();
-        !function.isDeclaration() && program != nullptr && program->getName() == base)
-      found = &function;
-  return found;
-}
-
 /// The top's place and parameter names, out of its debug information.
 top_description describe_top(const llvm::Function* top) {
   top_description result;
@@ -512,6 +501,17 @@ class splitter {
 };
 
 }  // namespace
+
+llvm::Function* find_top(llvm::Module& module, const std::string& top) {
+  const std::size_t scope = top.rfind("::");
+  const std::string base = scope == std::string::npos ? top : top.substr(scope + 2);
+  llvm::Function* found = nullptr;
+  for (llvm::Function& function : module)
+    if (const llvm::DISubprogram* program = function.getSubprogram();
+        !function.isDeclaration() && program != nullptr && program->getName() == base)
+      found = &function;
+  return found;
+}
 
 split_top split_into_processes(compiled_source& source, const source_options& options) {
   return splitter(source, options).run();

@@ -51,6 +51,9 @@ struct split_top {
   std::vector<internal_stream> streams;
 };
 
+/// The function of that name, with or without its scopes, that has a body; null: there is none.
+[[nodiscard]] llvm::Function* find_top(llvm::Module& module, const std::string& top);
+
 inline constexpr const char* internal_stream_name = "__epiline_internal_stream";
 
 /// Takes the module out of `source`, adds notes about pragmas without effect to it. Throws `refused` for a top with

@@ -148,6 +148,10 @@ inline void require_streams_drained() {
   if (!message.empty()) throw stream_error("hls::stream: tokens left unread at the end in " + message);
 }
 
+/// Called when a read finds a stream empty: a testbench that makes tokens up as they are asked for may write one into it
+/// now. Null: there is none.
+inline void (*on_empty_read)(const detail::stream_base& empty) = nullptr;
+
 template <class T, int DEPTH = 0>
 class stream;
 
@@ -162,7 +166,10 @@ class stream<T, 0> : public detail::stream_base {
 
   /// Takes the oldest token. Throws stream_error if there is none.
   T read() {
-    if (empty()) fail("read of");
+    if (empty()) {
+      if (on_empty_read != nullptr) on_empty_read(*this);
+      if (empty()) fail("read of");
+    }
     T value = std::move(slots_[read_ & mask_]);
     count_read();
     return value;
