@@ -205,8 +205,8 @@ std::string randomly_scheduled(const dataflow::network& network, const schedule:
                                const std::vector<schedule::result>& schedules, std::uint64_t seed) {
   std::vector<schedule::result> others;
   for (std::size_t i = 0; i < schedules.size(); ++i)
-    others.push_back(schedule::make_random_schedule(
-        network.processes[i], model, {schedules[i].period, schedules[i].initiation_interval}, seed + i));
+    others.push_back(schedule::make_random_schedule(network.processes[i], model,
+                                                    {schedules[i].period, schedules[i].initiation_interval}, seed + i));
   return emit::emit_network(network, model, others).text;
 }
 
@@ -383,18 +383,20 @@ int main(int argc, char** argv) {
   app.add_option("--schedule", given.scheduler, "optimal, or random: any legal one, a test tool")
       ->check(CLI::IsMember({"optimal", "random"}))
       ->capture_default_str();
-  app.add_option("--seed", given.seed, "of the random schedule, and of what is random in --check")->capture_default_str();
+  app.add_option("--seed", given.seed, "of the random schedule, and of what is random in --check")
+      ->capture_default_str();
   app.add_flag(
       "--axi-lite", given.axi_lite,
       "put the scalar arguments into registers behind an AXI4-Lite slave, with NAME_registers.h, .json and .md");
   app.add_flag("--prove", given.prove, "prove by an SMT solver that each pass keeps what the program does: proof.json");
-  app.add_option("--prove-seconds", given.prove_seconds, "time for the proof of one pass")
+  app.add_option("--prove-seconds", given.prove_seconds, "processor time for the proof of one pass")
       ->check(CLI::Range(0.001, 1e6))
       ->capture_default_str();
   app.add_flag("--check", given.check,
                "run every form of the program, native to netlist, with one stimulus, and compare (docs/flow.md)");
   app.add_option("--stimulus", given.check_options.stimulus, "token file for --check; without it random tokens");
-  app.add_option("--levels", given.check_options.levels, "those that --check runs; without it all whose tools are there")
+  app.add_option("--levels", given.check_options.levels,
+                 "those that --check runs; without it all whose tools are there")
       ->delimiter(',')
       ->allow_extra_args(false);
   app.add_option("--tokens", given.check_options.tokens, "random tokens of a stream, or calls, for --check")

@@ -6,7 +6,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <condition_variable>
+#include <ctime>
+#include <mutex>
 #include <stdexcept>
+#include <thread>
 
 #include "prove/confirm.hpp"
 #include "prove/relation.hpp"
@@ -18,6 +22,40 @@ using namespace dataflow;
 using llvm::APInt;
 
 namespace {
+
+/// Time this program has had of the processor: on a busy machine a proof gets as far as on an idle one.
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Interrupts the solver when the program has had the processor for so long.
+class time_limit {
+ public:
+  time_limit(z3::context& solver, double seconds)
+      : watch_([this, &solver, end = processor_seconds() + seconds] {
+          std::unique_lock lock(mutex_);
+          while (!done_.wait_for(lock, std::chrono::milliseconds(5), [this] { return is_done_; }))
+            if (processor_seconds() > end) solver.interrupt();
+        }) {}
+  ~time_limit() {
+    {
+      const std::lock_guard lock(mutex_);
+      is_done_ = true;
+    }
+    done_.notify_one();
+    watch_.join();
+  }
+  time_limit(const time_limit&) = delete;
+  time_limit& operator=(const time_limit&) = delete;
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable done_;
+  bool is_done_ = false;
+  std::thread watch_;
+};
 
 enum class answer { impossible, possible, unknown };
 
@@ -73,8 +111,7 @@ class prover {
   }
 
  private:
-  using clock = std::chrono::steady_clock;
-  [[nodiscard]] double elapsed() const { return std::chrono::duration<double>(clock::now() - begin_).count(); }
+  [[nodiscard]] double elapsed() const { return processor_seconds() - begin_; }
   [[nodiscard]] double left() const { return given_.seconds - elapsed(); }
 
   void refute_at_start() {
@@ -171,7 +208,6 @@ class prover {
                    z3::tactic(solver_, "simplify") & z3::tactic(solver_, "max-bv-sharing") &
                    z3::tactic(solver_, "bit-blast") & z3::tactic(solver_, "sat");
     z3::solver engine = t.mk_solver();
-    engine.set("timeout", static_cast<unsigned>(std::max(1.0, seconds * 1000)));
     engine.add(difference);
     cone relevant;
     relevant.add(difference);
@@ -182,6 +218,7 @@ class prover {
     if (with_facts)
       for (const fact& f : relation_.facts())
         if (relevant.contains(f.subject)) engine.add(f.holds);
+    const time_limit limit(solver_, seconds);
     try {
       switch (engine.check()) {
         case z3::unsat:
@@ -257,7 +294,7 @@ class prover {
     return !relation_.holds(run_one_iteration(b_, then), run_one_iteration(a_, now));
   }
 
-  clock::time_point begin_ = clock::now();
+  double begin_ = processor_seconds();
   options given_;
   const graph &b_, &a_;
   z3::context solver_;

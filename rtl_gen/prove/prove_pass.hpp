@@ -34,17 +34,17 @@ struct counterexample {
 struct proof {
   std::string pass;
   verdict result = verdict::proved;
-  std::string relation;      // what the states were taken to have in common
-  std::string reason;        // of not_covered
-  unsigned obligations = 0;  // outputs, registers and memories that had to be compared
-  unsigned unproved = 0;     // of them, when the time was over
-  bool with_facts = false;   // what is known about ranges was needed, and proved too
-  double seconds = 0;
+  std::string relation;                      // what the states were taken to have in common
+  std::string reason;                        // of not_covered
+  unsigned obligations = 0;                  // outputs, registers and memories that had to be compared
+  unsigned unproved = 0;                     // of them, when the time was over
+  bool with_facts = false;                   // what is known about ranges was needed, and proved too
+  double seconds = 0;                        // of the processor
   std::optional<counterexample> difference;  // of refuted
 };
 
 struct options {
-  double seconds = 10;  // for a pass
+  double seconds = 10;  // of the processor, for a pass
 };
 
 /// The graphs keep the rules of graph.hpp; the objects of `after` have their `origin` in `before`.

@@ -42,7 +42,7 @@ nlohmann::json session::to_json() const {
                                 {"confirmed_by_interpreter", p.difference->confirmed}};
     }
     passes.push_back(std::move(item));
-    nlohmann::json& total = totals[p.pass];
+    nlohmann::json& total = totals.emplace(p.pass, nlohmann::json::object()).first.value();
     for (const verdict v : {verdict::proved, verdict::timed_out, verdict::refuted, verdict::not_covered})
       total[name_of(v)] = total.value(name_of(v), 0) + (p.result == v ? 1 : 0);
   }
