@@ -389,7 +389,7 @@ int main(int argc, char** argv) {
       "--axi-lite", given.axi_lite,
       "put the scalar arguments into registers behind an AXI4-Lite slave, with NAME_registers.h, .json and .md");
   app.add_flag("--prove", given.prove, "prove by an SMT solver that each pass keeps what the program does: proof.json");
-  app.add_option("--prove-seconds", given.prove_seconds, "processor time for the proof of one pass")
+  app.add_option("--prove-seconds", given.prove_seconds, "time for the proof of one pass")
       ->check(CLI::Range(0.001, 1e6))
       ->capture_default_str();
   app.add_flag("--check", given.check,

@@ -63,6 +63,8 @@ std::vector<std::string> build(const simulation_request& request, const std::str
   } else {
     write(request.folder / (request.name + "_main.cpp"), verilator_main);
     fs::remove_all(request.folder / (request.name + ".model"));
+    // Verilator's own library is the same for all.
+    const std::string cache = find_program("ccache") ? " OBJCACHE=ccache" : "";
     words = {*find_program("verilator"),
              "--cc",
              "--exe",
@@ -85,7 +87,7 @@ std::vector<std::string> build(const simulation_request& request, const std::str
              "--prefix",
              "Vbench",
              "-MAKEFLAGS",
-             "OPT_FAST=-O1 OPT_SLOW=-O0 OPT_GLOBAL=-O1 VM_PARALLEL_BUILDS=1",
+             "OPT_FAST=-O1 OPT_SLOW=-O0 OPT_GLOBAL=-O1 VM_PARALLEL_BUILDS=1" + cache,
              "--Mdir",
              request.name + ".model",
              "-o",
