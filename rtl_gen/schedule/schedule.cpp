@@ -161,8 +161,9 @@ class problem {
   node_id add_chains(double period, double calm, const std::vector<std::uint32_t>& component,
                      std::vector<constraint>& constraints) const;
 
-  /// What very many read, outside recurrences, is in a flip-flop for a clock before its readers' copies of it take it
-  /// over: the way to all of them is as long as the design is wide.
+  /// Long ways, outside recurrences, get a clock of their own: values wait in a flip-flop before anything is computed
+  /// from them. What very many read has a way as long as the design is wide to its readers' copies of it; tokens come
+  /// from the pins; the words of a memory of many block RAMs from all over the device.
   void add_distribution(const std::vector<std::uint32_t>& component, std::vector<constraint>& constraints) const;
 
   /// All rules but those of the period. `apart`: a memory's writes come a stage after its reads where possible.
@@ -191,6 +192,7 @@ class problem {
   std::vector<int> latency_;
   std::vector<std::vector<way>> ways_;  // per node
   std::vector<char> in_issue_cone_;     // per node
+  std::vector<char> register_in_cone_;  // per register
 };
 
 void problem::collect_accesses() {
@@ -235,7 +237,7 @@ void problem::collect_ways() {
 
 void problem::find_issue_cone() {
   in_issue_cone_.assign(g_.nodes.size(), 0);
-  std::vector<char> register_seen(g_.registers.size(), 0);
+  register_in_cone_.assign(g_.registers.size(), 0);
   std::vector<char> memory_seen(g_.memories.size(), 0);
   std::vector<node_id> work;
   const auto visit = [&](node_id id) {
@@ -251,8 +253,8 @@ void problem::find_issue_cone() {
     const node& n = g_.nodes[work.back()];
     work.pop_back();
     for (const node_id operand : n.operands) visit(operand);
-    if (n.kind == operation::register_value && !register_seen[n.object]) {
-      register_seen[n.object] = 1;
+    if (n.kind == operation::register_value && !register_in_cone_[n.object]) {
+      register_in_cone_[n.object] = 1;
       visit(g_.registers[n.object].next);
       visit(g_.registers[n.object].enable);
     }
@@ -272,7 +274,6 @@ void problem::add_order(int interval, bool apart, std::vector<constraint>& const
     at_least(b, a, 0, why);
   };
   std::vector<node_id> port_write(g_.ports.size(), none);
-  std::vector<char> register_in_cone(g_.registers.size(), 0);
   for (node_id id = 0; id < g_.nodes.size(); ++id) {
     if (settled_[id]) continue;
     const node& n = g_.nodes[id];
@@ -286,7 +287,6 @@ void problem::add_order(int interval, bool apart, std::vector<constraint>& const
     if (n.kind == operation::read) at_least(v, 0, 0, reason::issue);
     if (n.kind == operation::register_value) {
       equal(of_register(n.object), v, reason::data);
-      if (in_issue_cone_[id]) register_in_cone[n.object] = 1;
     }
     if (n.kind == operation::write) {
       node_id& first = port_write[n.object];
@@ -306,10 +306,10 @@ void problem::add_order(int interval, bool apart, std::vector<constraint>& const
     for (const node_id source : {state.next, state.enable}) {
       if (!settled_[source]) at_least(of_node(source), update, latency_[source], reason::data);
     }
-    at_least(0, update, register_in_cone[r] ? 0 : 1, reason::order);
+    at_least(0, update, register_in_cone_[r] ? 0 : 1, reason::order);
     at_least(update, end_, 0, reason::order);
     if (patient) continue;
-    at_least(0, of_register(r), register_in_cone[r] ? 0 : 1, reason::order);
+    at_least(0, of_register(r), register_in_cone_[r] ? 0 : 1, reason::order);
     at_least(of_register(r), update, 0, reason::order);
     at_least(update, of_register(r), -(interval - 1), reason::recurrence);
   }
@@ -412,13 +412,30 @@ node_id problem::add_chains(double period, double calm, const std::vector<std::u
 
 void problem::add_distribution(const std::vector<std::uint32_t>& component,
                                std::vector<constraint>& constraints) const {
-  const double many = model_.parameters().very_many_readers;
+  const delay_parameters& d = model_.parameters();
+  // Stages from a value's own to its readers', or 0: as usual.
+  const auto wanted = [&](node_id id) {
+    const node& n = g_.nodes[id];
+    if (n.kind == operation::read) return 1;
+    if (latency_[id] > 0) {
+      if (n.kind != operation::memory_read) return 0;
+      const dataflow::memory& m = g_.memories[n.object];
+      return model_.blocks(m.words, m.width) >= d.many_blocks ? latency_[id] + 1 : 0;
+    }
+    return spread_.readers[id] >= d.very_many_readers && !is_wire(g_, id) ? 2 : 0;
+  };
+  // What decides the issue is in stage 0.
+  const auto at_issue = [&](variable v) {
+    if (const node_id target = node_of(v); target != none) return in_issue_cone_[target] != 0;
+    const register_id r = register_of_update(v);
+    return r != none && register_in_cone_[r] != 0;
+  };
   for (node_id id = 0; id < g_.nodes.size(); ++id) {
-    if (settled_[id] || spread_.readers[id] < many || is_wire(g_, id) || latency_[id] > 0) continue;
+    const int stages = settled_[id] ? 0 : wanted(id);
+    if (stages == 0) continue;
     for (const way& w : ways_[id]) {
-      if (w.to != 0 && component[w.to] != component[of_node(id)]) {
-        constraints.push_back({of_node(id), w.to, 2, reason::order});
-      }
+      if (w.to == 0 || at_issue(w.to) || component[w.to] == component[of_node(id)]) continue;
+      constraints.push_back({of_node(id), w.to, stages, reason::order});
     }
   }
 }

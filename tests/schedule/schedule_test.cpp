@@ -114,6 +114,33 @@ TEST(make_schedule, leaves_room_for_wires_outside_recurrences) {
   EXPECT_THROW((void)make_schedule(loop, model, {slowest - 0.05, 1}), schedule::infeasible);
 }
 
+TEST(make_schedule, gives_long_ways_a_clock) {
+  const delay_model model("ecp5");
+  // What is computed with a token waits in a flip-flop first, unless it decides whether the next iteration reads.
+  graph_builder b("tokens");
+  const auto [more, more_value] = b.state("more", 1, 1);
+  const node_id token = b.read(b.stream("in", true, 8), more_value);
+  const node_id sum = b.sum(token, token);
+  const node_id last = b.compare(operation::equal, token, b.constant(8, 0));
+  b.set(more, b.invert(last), b.always());
+  // The words of many block RAMs, too.
+  const auto address = b.extend(b.slice(token, 0, 8), 10);
+  const auto few = b.memory("few", 1024, 18, 1), many = b.memory("many", 1024, 360, 1);
+  const node_id of_few = b.load(few, address, b.always()), of_many = b.load(many, address, b.always());
+  b.store(few, address, b.extend(sum, 18), b.always());
+  b.store(many, address, b.extend(sum, 360), b.always());
+  const node_id few_word = b.invert(b.sum(of_few, of_few)), many_bits = b.binary(operation::bit_xor, of_many, of_many);
+  b.write(b.stream("out", false, 378), b.always(), b.add(operation::concat, 378, {few_word, many_bits}));
+  const schedule::result s = make_schedule(b.g, model, {6, 1});
+  EXPECT_EQ(schedule::validate(b.g, model, s), "");
+  EXPECT_EQ(s.stage[last], 0);
+  EXPECT_GE(s.stage[sum], 1);
+  ASSERT_LT(model.blocks(1024, 18), model.parameters().many_blocks);
+  ASSERT_GE(model.blocks(1024, 360), model.parameters().many_blocks);
+  EXPECT_EQ(s.stage[many_bits], s.stage[of_many] + model.latency(b.g, of_many) + 1);
+  EXPECT_EQ(s.available[of_few], s.stage[of_few] + model.latency(b.g, of_few));
+}
+
 TEST(delay_model, counts_block_rams_like_yosys) {
   const delay_model model("ecp5");
   EXPECT_EQ(model.blocks(1024, 336), 19u);
