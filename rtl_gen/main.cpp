@@ -29,6 +29,7 @@
 #include "frontend/reproducer.hpp"
 #include "passes/foresee_reads.hpp"
 #include "passes/pipeline.hpp"
+#include "prove/fault.hpp"
 #include "prove/session.hpp"
 #include "schedule/balance_fifos.hpp"
 #include "schedule/schedule.hpp"
@@ -51,6 +52,7 @@ struct command_line {
   std::string crash;
   double prove_seconds = 10;  // for a pass
   bool prove = false;
+  std::string prove_fault;  // the pass after which a graph is broken for its proof; empty: none
   bool axi_lite = false;
   bool quiet = false;
   bool check = false;
@@ -190,11 +192,11 @@ std::map<std::string, std::string> read_sources(const dataflow::network& network
   return sources;
 }
 
-/// Writes proof.json; nothing else is written when a pass was refuted.
+/// Writes proof.json, whatever becomes of the rest; nothing else is written when a pass was refuted.
 void write_proofs(const prove::session& proofs, output_folder& output) {
   output.write("proof.json", proofs.to_json().dump(2) + "\n");
-  if (!proofs.refuted()) return;
   output.commit();
+  if (!proofs.refuted()) return;
   throw usage_error(
       "a pass changed what the program does (see above, and proof.json): this is a mistake in the compiler or in its "
       "proofs; please report it with the source");
@@ -287,7 +289,8 @@ void run(const command_line& given) {
                                      .multiplier_width = model.parameters().multiplier_width};
     if (given.prove || given.check)
       options.observer = [&](std::string_view pass, const dataflow::graph& before, const dataflow::graph& after) {
-        if (given.prove) proofs.pass_ran(graph.name, pass, before, after);
+        if (given.prove)
+          proofs.pass_ran(graph.name, pass, before, given.prove_fault == pass ? prove::with_fault(after) : after);
         if (checker) checker->see_pass(static_cast<std::size_t>(&graph - network.processes.data()), pass, after);
       };
     pass_logs.push_back(passes::to_json(passes::run_default_pipeline(graph, options)));
@@ -389,9 +392,10 @@ int main(int argc, char** argv) {
       "--axi-lite", given.axi_lite,
       "put the scalar arguments into registers behind an AXI4-Lite slave, with NAME_registers.h, .json and .md");
   app.add_flag("--prove", given.prove, "prove by an SMT solver that each pass keeps what the program does: proof.json");
-  app.add_option("--prove-seconds", given.prove_seconds, "time for the proof of one pass")
+  app.add_option("--prove-seconds", given.prove_seconds, "processor time for the proof of one pass")
       ->check(CLI::Range(0.001, 1e6))
       ->capture_default_str();
+  app.add_option("--prove-fault", given.prove_fault)->group("");  // hidden: for the tests of --prove
   app.add_flag("--check", given.check,
                "run every form of the program, native to netlist, with one stimulus, and compare (docs/flow.md)");
   app.add_option("--stimulus", given.check_options.stimulus, "token file for --check; without it random tokens");

@@ -86,4 +86,10 @@ std::optional<std::string> plant_fault(dataflow::graph& g, dataflow::node_id id)
   }
 }
 
+dataflow::graph with_fault(dataflow::graph g) {
+  for (auto id = static_cast<dataflow::node_id>(g.nodes.size()); id-- > 0;)
+    if (plant_fault(g, id)) break;
+  return g;
+}
+
 }  // namespace epiline::prove

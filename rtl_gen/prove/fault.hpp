@@ -13,4 +13,7 @@ namespace epiline::prove {
 /// alone. What the graph outputs may stay the same all the same.
 std::optional<std::string> plant_fault(dataflow::graph& g, dataflow::node_id id);
 
+/// A graph with a fault at the last node that can have one.
+[[nodiscard]] dataflow::graph with_fault(dataflow::graph g);
+
 }  // namespace epiline::prove
