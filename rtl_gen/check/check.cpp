@@ -81,15 +81,30 @@ struct checker::state {
   void differ(std::string_view level, const std::string& text, const difference& where = {}) {
     ++levels_run;
     row(level, "DIFFERS", text);
-    if (!first_difference.empty()) return;
-    std::string place;
-    if (where.port != dataflow::none) {
-      const auto& places = at_source.places;
-      if (where.port < places.size() && where.token < places[where.port].size())
-        place = places[where.port][where.token];
-      if (place.empty()) place = write_place(network, where.port);
+    if (!first_level.empty()) return;
+    first_level = level;
+    first_text = text;
+    first_where = where;
+  }
+
+  /// "file:line: " of the write of the token that differs first.
+  std::string first_place() {
+    if (first_where.port == dataflow::none) return {};
+    if (at_source.places.empty()) {
+      // Only lowered IR tells from which of several lines a token comes, so it is run for that.
+      std::string problem;
+      const program built = build_lowered_ir(top, network, wanted.folder, at_iterations);
+      if (built.problem.empty()) {
+        const answer found = run(built, network, at_iterations.inputs, problem);
+        if (problem.empty()) note_places(found);
+      }
     }
-    first_difference = fmt::format("{}error: level {} differs: {}", place.empty() ? "" : place + ": ", level, text);
+    const auto& places = at_source.places;
+    std::string place;
+    if (first_where.port < places.size() && first_where.token < places[first_where.port].size())
+      place = places[first_where.port][first_where.token];
+    if (place.empty()) place = write_place(network, first_where.port);
+    return place.empty() ? place : place + ": ";
   }
 
   /// The text of a level, with the fault that is planted in it for a test.
@@ -391,7 +406,8 @@ struct checker::state {
   bool pass_failed = false;
   std::string verilog;
   std::size_t levels_run = 0, levels_skipped = 0;
-  std::string first_difference;
+  std::string first_level, first_text;  // that differs; empty: none does
+  difference first_where;
 };
 
 checker::checker(options wanted, frontend::source_options source, std::ostream& out)
@@ -483,10 +499,11 @@ std::string checker::finish() {
   if (state_->planted && !state_->fault_is_in)
     throw cannot_check(
         fmt::format("error: --fault: '{}' is not in level {}", state_->planted->from, state_->planted->level));
-  if (state_->first_difference.empty())
-    state_->out << fmt::format("{} levels are equal{}\n", state_->levels_run,
-                               state_->levels_skipped == 0 ? "" : fmt::format(", {} skipped", state_->levels_skipped));
-  return state_->first_difference;
+  if (!state_->first_level.empty())
+    return fmt::format("{}error: level {} differs: {}", state_->first_place(), state_->first_level, state_->first_text);
+  state_->out << fmt::format("{} levels are equal{}\n", state_->levels_run,
+                             state_->levels_skipped == 0 ? "" : fmt::format(", {} skipped", state_->levels_skipped));
+  return {};
 }
 
 }  // namespace epiline::check

@@ -51,6 +51,11 @@ std::string literal(const llvm::APInt& value) {
 
 std::string literal(unsigned width, std::uint64_t value) { return literal(llvm::APInt(width, value)); }
 
+/// The bits of an operand inverted: of two operators in front of one another Verilog-2005 makes a syntax error.
+std::string inverted(const std::string& operand) {
+  return operand.starts_with("~") ? "~(" + operand + ")" : "~" + operand;
+}
+
 unsigned bits_for(std::uint64_t largest) { return std::max(1u, static_cast<unsigned>(std::bit_width(largest))); }
 
 /// A module of its own, because synthesis makes one carry chain of it only when it is told how
@@ -538,7 +543,7 @@ writer::text_of_value writer::expression(node_id id) const {
     case operation::bit_xor:
       return binary("^");
     case operation::bit_not:
-      return {"~" + o(0), true, false};
+      return {inverted(o(0)), true, false};
     case operation::equal:
       return binary("==");
     case operation::less_unsigned:
@@ -1052,8 +1057,8 @@ void writer::write_issue() {
                                     ? operand(r.next, 0)
                                     : fmt::format("({} ? {} : {})", operand(r.enable, 0), operand(r.next, 0), now);
       line("  always @(posedge clk) begin");
-      line("    {0}_served <= fire ? {0}_push | ({0}_there & ~({0}_ready & {1})) | ~{2}", name, now, later);
-      line("      : {0}_push | {0}_there | ~{1};", name, now);
+      line("    {0}_served <= fire ? {0}_push | ({0}_there & ~({0}_ready & {1})) | {2}", name, now, inverted(later));
+      line("      : {0}_push | {0}_there | {1};", name, inverted(now));
       line("  end");
       conditions += fmt::format("\n    & {}_served", name);
     } else if (take != "1'b0") {
