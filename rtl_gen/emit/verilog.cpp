@@ -157,6 +157,8 @@ class writer {
   void write_heading();
   void write_control_declarations();
   void write_inputs();
+  void write_buffer(const std::string& stem, unsigned width, const std::string& token, const std::string& offered,
+                    bool foreseen);
   void write_sampled_arguments(const std::string& name);
   void write_settled();
   void write_memory_declarations();
@@ -168,6 +170,7 @@ class writer {
     std::string name;
     unsigned width = 1;
     dataflow::source_location where = {};
+    bool is_zero_at_power_up = false;
   };
   template <class Source>
   void write_flip_flops(const flip_flops& wanted, const copies& all, const Source& source, move_list& moves);
@@ -249,20 +252,24 @@ std::string writer::fresh(std::string_view wanted) {
 }
 
 std::string writer::fresh_port(const std::string& wanted) {
-  constexpr const char* suffixes[] = {"_token",   "_first", "_second",       "_fills_second", "_reads_second", "_there",
-                                      "_ready",   "_take",  "_push",         "_fifo",         "_in",           "_out",
-                                      "_word",    "_left",  "_skipped",      "_load",         "_word_there",   "_data",
-                                      "_credits", "_room",  "_credits_next", "_served"};
+  constexpr const char* of_buffer[] = {"_first", "_second", "_fills_second", "_reads_second", "_there",
+                                       "_ready", "_token",  "_take",         "_push"};
+  constexpr const char* suffixes[] = {"_fifo", "_in",   "_out",     "_word", "_word_there",   "_left",  "_skipped",
+                                      "_load", "_data", "_credits", "_room", "_credits_next", "_served"};
   constexpr const char* argument_suffixes[] = {"_registers", "_wanted", "_sample", "_start",
                                                "_hold",      "_keep",   "_slave"};
-  std::vector<const char*> used(std::begin(suffixes), std::end(suffixes));
+  std::vector<std::string> used(std::begin(suffixes), std::end(suffixes));
+  for (const char* suffix : of_buffer) {
+    used.emplace_back(suffix);
+    used.push_back(std::string("_end") + suffix);
+  }
   if (options_.axi_lite) used.insert(used.end(), std::begin(argument_suffixes), std::end(argument_suffixes));
   for (;;) {
     const std::string name = fresh(wanted);
-    const bool clash =
-        std::any_of(used.begin(), used.end(), [&](const char* suffix) { return taken_.contains(name + suffix); });
+    const bool clash = std::any_of(used.begin(), used.end(),
+                                   [&](const std::string& suffix) { return taken_.contains(name + suffix); });
     if (clash) continue;
-    for (const char* suffix : used) taken_.insert(name + suffix);
+    for (const std::string& suffix : used) taken_.insert(name + suffix);
     return name;
   }
 }
@@ -460,7 +467,8 @@ std::string writer::state_reset() const {
 /// Flip-flops and their copies. `source` gives the text of what they take over, for the reader that is set.
 template <class Source>
 void writer::write_flip_flops(const flip_flops& wanted, const copies& all, const Source& source, move_list& moves) {
-  line("  reg {}{};{}", range_of(wanted.width), wanted.name, comment(wanted.where));
+  const std::string initial = wanted.is_zero_at_power_up ? fmt::format(" = {}", literal(wanted.width, 0)) : "";
+  line("  reg {}{}{};{}", range_of(wanted.width), wanted.name, initial, comment(wanted.where));
   for (std::size_t copy = 0; copy < all.count(); ++copy) {
     reader_ = all.first_reader[copy];
     if (copy > 0) {
@@ -651,7 +659,8 @@ void writer::write_control_declarations() {
   line("  reg [{}:0] hold;           // clocks until the next issue may come", hold_bits() - 1);
   line("  reg holding;");
   line("  reg resetting;            // what was in flight at a reset leaves the pipeline");
-  line("  reg may_issue;            // not holding, and outputs have room");
+  // 0 at power-up, as valid is: an iteration issued before the first reset could change what only power-up sets.
+  line("  reg may_issue = 1'b0;     // not holding, and outputs have room");
 }
 
 void writer::write_inputs() {
@@ -671,32 +680,36 @@ void writer::write_inputs() {
       token += signal_name(port, port.fields[f].signal);
     }
     if (port.fields.size() > 1) token = "{" + token + "}";
-    const std::string range = range_of(port.width);
-    line("  reg {0}{1}_first, {1}_second;", range, name);
-    line("  reg {0}_fills_second, {0}_reads_second;", name);
-    line("  reg {0}_there, {0}_ready;", name);
-    if (need_register(static_cast<dataflow::port_id>(i))) {
-      line("  reg {}_served;  // the next iteration does not wait for this input", name);
-    }
-    line("  wire {}_take;", name);
-    line("  wire {0}_push = {1} & {0}_ready;", name, signal_name(port, "tvalid"));
-    line("  wire {0}{1}_token = {1}_reads_second ? {1}_second : {1}_first;", range, name);
+    write_buffer(name, port.width, token, signal_name(port, "tvalid"),
+                 need_register(static_cast<dataflow::port_id>(i)).has_value());
     line("  assign {} = {}_ready;", signal_name(port, "tready"), name);
-    line("  always @(posedge clk) begin");
-    line("    if ({0}_ready & ~{0}_fills_second) {0}_first <= {1};", name, token);
-    line("    if ({0}_ready & {0}_fills_second) {0}_second <= {1};", name, token);
-    line("    {0}_fills_second <= {0}_fills_second ^ {0}_push;", name);
-    line("    {0}_reads_second <= {0}_reads_second ^ {0}_take;", name);
-    line("    {0}_there <= {0}_push | ({0}_there & ~({0}_ready & {0}_take));", name);
-    line("    {0}_ready <= ~({0}_there & ~{0}_take & ({0}_push | ~{0}_ready));", name);
-    line("    if (rst) begin");
-    line("      {}_fills_second <= 1'b0;", name);
-    line("      {}_reads_second <= 1'b0;", name);
-    line("      {}_there <= 1'b0;", name);
-    line("      {}_ready <= 1'b0;", name);
-    line("    end");
-    line("  end");
   }
+}
+
+/// Two registers, filled and read in turn: neither side's flip-flops hang on what the other side does in this clock.
+/// Takes over `token` where `offered` and STEM_ready are 1, gives it as STEM_token while STEM_there is 1, until
+/// STEM_take, which is assigned elsewhere.
+void writer::write_buffer(const std::string& stem, unsigned width, const std::string& token, const std::string& offered,
+                          bool foreseen) {
+  const std::string range = range_of(width);
+  line("  reg {0}{1}_first, {1}_second;", range, stem);
+  line("  reg {0}_fills_second, {0}_reads_second;", stem);
+  line("  reg {0}_there, {0}_ready;", stem);
+  if (foreseen) line("  reg {}_served;  // the next iteration does not wait for this input", stem);
+  line("  wire {}_take;", stem);
+  line("  wire {0}_push = {1} & {0}_ready;", stem, offered);
+  line("  wire {0}{1}_token = {1}_reads_second ? {1}_second : {1}_first;", range, stem);
+  line("  always @(posedge clk) begin");
+  line("    if ({0}_ready & ~{0}_fills_second) {0}_first <= {1};", stem, token);
+  line("    if ({0}_ready & {0}_fills_second) {0}_second <= {1};", stem, token);
+  line("    {0}_fills_second <= {0}_fills_second ^ {0}_push;", stem);
+  line("    {0}_reads_second <= {0}_reads_second ^ {0}_take;", stem);
+  line("    {0}_there <= {0}_push | ({0}_there & ~({0}_ready & {0}_take));", stem);
+  line("    {0}_ready <= ~({0}_there & ~{0}_take & ({0}_push | ~{0}_ready));", stem);
+  line("    if (rst) begin");
+  for (const char* flag : {"fills_second", "reads_second", "there", "ready"}) line("      {}_{} <= 1'b0;", stem, flag);
+  line("    end");
+  line("  end");
 }
 
 void writer::write_sampled_arguments(const std::string& name) {
@@ -864,7 +877,8 @@ void writer::write_copies(int stage) {
   for (const auto& [place, all] : plan_.update_bits) {
     if (place.second != stage) continue;
     const auto source = [&] { return fmt::format("{} & {}", valid(stage - 1), operand(place.first, stage - 1)); };
-    write_flip_flops({update_name_.at(place), 1, g_.nodes[place.first].where}, all, source, moves);
+    // Its copies are 0 at power-up, too: nothing changes state before the first reset.
+    write_flip_flops({update_name_.at(place), 1, g_.nodes[place.first].where, true}, all, source, moves);
   }
   reader_ = 0;
   for (std::size_t i = 0; i < plan_.lines.size(); ++i) {
@@ -1284,8 +1298,11 @@ void writer::write_outputs() {
     line("  reg [{}:0] {}_in, {}_out;", counter - 1, name, name);
     line("  reg {}{}_word;", range_of(port.width), name);
     line("  reg {}_word_there, {}_left{};", name, name, always ? "" : fmt::format(", {}_skipped", name));
-    line("  wire {}_load = ({}_in != {}_out) & ({} | ~{}_word_there);", name, name, name, signal_name(port, "tready"),
-         name);
+    // tready comes from a pin, or from somebody else's gates: only the last buffer's flags hang on it.
+    const std::string end = name + "_end";
+    write_buffer(end, port.width, name + "_word", name + "_word_there", false);
+    line("  assign {0}_take = {0}_there & {1};", end, signal_name(port, "tready"));
+    line("  wire {0}_load = ({0}_in != {0}_out) & ({1}_ready | ~{0}_word_there);", name, end);
     line("  wire {}{}_data = {};", range_of(port.width), name, data);
     // The iteration issued in this clock is not counted yet.
     line("  assign {}_room = {}_credits_next > {};", name, name, literal(counter, 1));
@@ -1297,24 +1314,24 @@ void writer::write_outputs() {
     line("    if ({}_load) {}_word <= {}_fifo[{}_out[{}:0]];", name, name, name, name, pointer - 1);
     line("    if ({}_push) {}_in <= {}_in + {};", name, name, name, literal(counter, 1));
     line("    if ({}_load) {}_out <= {}_out + {};", name, name, name, literal(counter, 1));
-    line("    {}_word_there <= {}_load | ({}_word_there & ~{});", name, name, name, signal_name(port, "tready"));
+    line("    {0}_word_there <= {0}_load | ({0}_word_there & ~{1}_ready);", name, end);
     line("    {}_left <= {}_load;", name, name);
     if (!always) line("    {}_skipped <= {} & ~({});", name, valid(stage), pushes);
     line("    {}_credits <= {}_credits_next;", name, name);
     line("    if (resetting) begin");
+    line("      {}_word_there <= 1'b0;", name);
     line("      {}_in <= {};", name, literal(counter, 0));
     line("      {}_out <= {};", name, literal(counter, 0));
     line("      {}_left <= 1'b0;", name);
     if (!always) line("      {}_skipped <= 1'b0;", name);
     line("      {}_credits <= {};", name, literal(counter, fifo.depth));
     line("    end");
-    line("    if (rst | resetting) {}_word_there <= 1'b0;", name);
     line("  end");
-    line("  assign {} = {}_word_there;", signal_name(port, "tvalid"), name);
+    line("  assign {} = {}_there;", signal_name(port, "tvalid"), end);
     for (const dataflow::field& f : port.fields) {
-      const std::string bits = f.width == port.width ? name + "_word"
-                               : f.width == 1        ? fmt::format("{}_word[{}]", name, f.offset)
-                                              : fmt::format("{}_word[{}:{}]", name, f.offset + f.width - 1, f.offset);
+      const std::string bits = f.width == port.width ? end + "_token"
+                               : f.width == 1        ? fmt::format("{}_token[{}]", end, f.offset)
+                                              : fmt::format("{}_token[{}:{}]", end, f.offset + f.width - 1, f.offset);
       line("  assign {} = {};", signal_name(port, f.signal), bits);
     }
   }

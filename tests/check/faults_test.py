@@ -94,13 +94,13 @@ class Faults(CheckTest):
 
     def test_rtl_that_offers_tokens_only_when_they_are_taken(self):
         run = self.differs("rtl-icarus", "output 'out': 0 tokens, native 5", EVEN_LINE, "--levels", "rtl-icarus",
-                           "--fault", "rtl-icarus:= out_word_there;:= out_word_there & m_axis_out_tready;")
+                           "--fault", "rtl-icarus:= out_end_there;:= out_end_there & m_axis_out_tready;")
         self.assertIn("(with random pauses, ready after valid)", run.stderr)
 
     def test_rtl_that_withdraws_a_token(self):
         run = self.check("faulty.cpp", "faulty", "--stimulus", "x.tokens", "--levels", "rtl-icarus", "--fault",
-                         "rtl-icarus:assign m_axis_out_tvalid = out_word_there;:reg toggle = 0; always @(posedge clk) "
-                         "toggle <= !toggle; assign m_axis_out_tvalid = out_word_there & (m_axis_out_tready | toggle);")
+                         "rtl-icarus:assign m_axis_out_tvalid = out_end_there;:reg toggle = 0; always @(posedge clk) "
+                         "toggle <= !toggle; assign m_axis_out_tvalid = out_end_there & (m_axis_out_tready | toggle);")
         self.assertEqual(run.returncode, 1)
         self.assertRegex(run.stderr, r"level rtl-icarus differs: out: tvalid is withdrawn before tready in clock \d+ \(")
 
