@@ -1,5 +1,6 @@
 #include "frontend/aggregates.hpp"
 
+#include <llvm/Analysis/ConstantFolding.h>
 #include <llvm/Analysis/LoopInfo.h>
 #include <llvm/BinaryFormat/Dwarf.h>
 #include <llvm/IR/DebugInfo.h>
@@ -747,6 +748,54 @@ variable describe(llvm::AllocaInst& slot) {
   return of;
 }
 
+/// What stands at `offset` bytes of `whole`, as a constant of `type`; null if that cannot be told.
+llvm::Constant* constant_at(llvm::Constant* whole, llvm::Type* type, std::uint64_t offset,
+                            const llvm::DataLayout& layout) {
+  llvm::SmallVector<llvm::Constant*> elements;
+  const auto append = [&](llvm::Type* element, std::uint64_t at) {
+    elements.push_back(constant_at(whole, element, at, layout));
+    return elements.back() != nullptr;
+  };
+  if (auto* array = llvm::dyn_cast<llvm::ArrayType>(type)) {
+    const std::uint64_t size = layout.getTypeAllocSize(array->getElementType());
+    for (std::uint64_t i = 0; i < array->getNumElements(); ++i)
+      if (!append(array->getElementType(), offset + i * size)) return nullptr;
+    return llvm::ConstantArray::get(array, elements);
+  }
+  if (auto* structure = llvm::dyn_cast<llvm::StructType>(type)) {
+    const llvm::StructLayout* fields = layout.getStructLayout(structure);
+    for (unsigned i = 0; i < structure->getNumElements(); ++i)
+      if (!append(structure->getElementType(i), offset + fields->getElementOffset(i))) return nullptr;
+    return llvm::ConstantStruct::get(structure, elements);
+  }
+  return llvm::ConstantFoldLoadFromConst(whole, type, llvm::APInt(64, offset), layout);
+}
+
+/// clang gives an array whose initial contents end in many zeros the type of a struct: a few elements, and an array of
+/// zeros. Where the array is indexed, it is the array again: this makes the variable one from the beginning.
+llvm::GlobalVariable& in_type_of_source(llvm::GlobalVariable& global) {
+  const auto* structure = llvm::dyn_cast<llvm::StructType>(global.getValueType());
+  if (structure == nullptr || !structure->isLiteral()) return global;
+  const llvm::DataLayout& layout = global.getParent()->getDataLayout();
+  llvm::Type* type = nullptr;
+  for (const llvm::User* user : global.users()) {
+    const auto* element = llvm::dyn_cast<llvm::GetElementPtrInst>(user);
+    if (element == nullptr || !llvm::isa<llvm::ArrayType>(element->getSourceElementType())) continue;
+    if (layout.getTypeAllocSize(element->getSourceElementType()) == layout.getTypeAllocSize(global.getValueType()))
+      type = element->getSourceElementType();
+  }
+  llvm::Constant* initial = type == nullptr ? nullptr : constant_at(global.getInitializer(), type, 0, layout);
+  if (initial == nullptr) return global;
+  auto* made = new llvm::GlobalVariable(*global.getParent(), type, global.isConstant(), global.getLinkage(), initial,
+                                        "", &global);
+  made->takeName(&global);
+  made->copyAttributesFrom(&global);
+  made->copyMetadata(&global, 0);
+  global.replaceAllUsesWith(made);
+  global.eraseFromParent();
+  return *made;
+}
+
 variable describe(llvm::GlobalVariable& global) {
   variable of;
   of.base = &global;
@@ -783,7 +832,7 @@ void split_aggregates(lowered_process& result) {
       auto* instruction = llvm::dyn_cast<llvm::Instruction>(user);
       used_here = used_here || (instruction != nullptr && instruction->getFunction() == &function);
     }
-    if (used_here) variables.push_back(describe(global));
+    if (used_here) variables.push_back(describe(in_type_of_source(global)));
   }
   splitter all(result);
   for (variable& of : variables) all.split(of);

@@ -13,6 +13,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "frontend/power_up.hpp"
 #include "frontend/steps.hpp"
 #include "frontend/vocabulary.hpp"
 
@@ -368,21 +369,59 @@ class graph_builder {
     start_ = steps_.cuts.front();
     const BasicBlock* entry = start_;
     const BasicBlock* last = entry;
+    start_path_ = {entry};
     const BasicBlock* next = entry->getSingleSuccessor();
     while (next != nullptr && !steps_.is_cut(next)) {
       if (!is_pure(*next)) return;
       last = next;
+      start_path_.push_back(last);
       next = next->getSingleSuccessor();
     }
     if (next == nullptr || !is_pure(*entry)) return;
+    start_path_.push_back(next);
+    const bool is_kept_at_reset =
+        std::any_of(entry->begin(), entry->end(), [](const Instruction& at) { return power_up_value(&at) != nullptr; });
+    // More than constants that the cut itself chooses only where it must be: a step that sets state would do so after
+    // each reset.
     for (const llvm::PHINode& phi : next->phis())
-      if (const llvm::Value* value = phi.getIncomingValueForBlock(last);
-          !llvm::isa<llvm::Constant>(value) && power_up_value(value) == nullptr)
+      if (is_kept_at_reset ? value_at_start(&phi).number == nullptr
+                           : !llvm::isa<llvm::Constant>(phi.getIncomingValueForBlock(last)))
         return;
-    for (const Instruction* value : live_[steps_.cut_number.at(next)])
-      if (!is_cut_phi(value) || value->getParent() != next) return;
+    for (const Instruction* value : live_[steps_.cut_number.at(next)]) {
+      const bool is_of_next = is_cut_phi(value) && value->getParent() == next;
+      if (!is_of_next && (!is_kept_at_reset || value_at_start(value).number == nullptr)) return;
+    }
     start_ = next;
     start_predecessor_ = last;
+  }
+
+  struct start_value {
+    llvm::Constant* number = nullptr;  // null: not a constant
+    bool is_kept_at_reset = false;
+  };
+
+  /// What a value is on the way from the function's entry to the first cut.
+  start_value value_at_start(const llvm::Value* value) const {
+    if (auto* number = llvm::dyn_cast<llvm::Constant>(value)) return {const_cast<llvm::Constant*>(number), false};
+    if (const llvm::Constant* number = power_up_value(value)) return {const_cast<llvm::Constant*>(number), true};
+    const auto* at = llvm::dyn_cast<Instruction>(value);
+    if (at == nullptr) return {};
+    const auto home = std::find(start_path_.begin(), start_path_.end(), at->getParent());
+    if (home == start_path_.end()) return {};
+    if (const auto* phi = llvm::dyn_cast<llvm::PHINode>(at))
+      return home == start_path_.begin() ? start_value()
+                                         : value_at_start(phi->getIncomingValueForBlock(*std::prev(home)));
+    if (!at->getType()->isIntegerTy() || at->mayReadOrWriteMemory()) return {};
+    start_value result;
+    llvm::SmallVector<llvm::Constant*> operands;
+    for (const llvm::Value* operand : at->operands()) {
+      const start_value of_operand = value_at_start(operand);
+      if (of_operand.number == nullptr) return {};
+      operands.push_back(of_operand.number);
+      result.is_kept_at_reset |= of_operand.is_kept_at_reset;
+    }
+    result.number = fold_constants(*at, operands);
+    return result;
   }
 
   static bool is_pure(const BasicBlock& block) {
@@ -589,7 +628,10 @@ class graph_builder {
       refuse(place, "floating point arithmetic: use ap_int/ap_uint (fixed point) instead");
     if (at.getType()->isPointerTy() || llvm::isa<llvm::LoadInst>(at) || llvm::isa<llvm::StoreInst>(at))
       refuse(place, "a pointer that is not known at compile time: use array indices");
-    refuse(place, fmt::format("'{}' has no hardware form here", at.getOpcodeName()));
+    const auto* call = llvm::dyn_cast<llvm::CallInst>(&at);
+    const bool is_named = call != nullptr && call->getCalledFunction() != nullptr;
+    refuse(place, fmt::format("'{}' has no hardware form here",
+                              is_named ? call->getCalledFunction()->getName().str() : at.getOpcodeName()));
   }
 
   node_id compare(const llvm::ICmpInst& at) {
@@ -983,16 +1025,18 @@ class graph_builder {
   /// What the registers hold when the first step starts.
   void set_initial_values() {
     if (start_predecessor_ == nullptr) return;
-    for (const llvm::PHINode& phi : start_->phis()) {
-      const auto found = register_of_.find(&phi);
+    std::vector<const Instruction*> values;
+    for (const llvm::PHINode& phi : start_->phis()) values.push_back(&phi);
+    for (const Instruction* value : ordered_live_[steps_.cut_number.at(start_)])
+      if (!is_cut_phi(value) || value->getParent() != start_) values.push_back(value);
+    for (const Instruction* instruction : values) {
+      const auto found = register_of_.find(instruction);
       if (found == register_of_.end()) continue;
-      const llvm::Value* value = phi.getIncomingValueForBlock(start_predecessor_);
+      const start_value value = value_at_start(instruction);
       dataflow::register_state& state = graph_.registers[found->second];
-      if (const llvm::Constant* at_power_up = power_up_value(value)) {
-        value = at_power_up;
-        state.resets = false;
-      }
-      if (const auto* number = llvm::dyn_cast<llvm::ConstantInt>(value)) state.initial = number->getValue();
+      if (value.is_kept_at_reset) state.resets = false;
+      if (const auto* number = llvm::dyn_cast_or_null<llvm::ConstantInt>(value.number))
+        state.initial = number->getValue();
     }
   }
 
@@ -1068,6 +1112,7 @@ class graph_builder {
 
   const BasicBlock* start_ = nullptr;
   const BasicBlock* start_predecessor_ = nullptr;  // in the function's entry; null: the entry is a step of its own
+  std::vector<const BasicBlock*> start_path_;      // from the function's entry to the first cut
   std::vector<std::set<const Instruction*>> live_;
   std::vector<std::vector<const Instruction*>> ordered_live_;
   std::unordered_map<const Instruction*, unsigned> instruction_numbers_;

@@ -24,6 +24,7 @@
 #include "frontend/loops.hpp"
 #include "frontend/payload.hpp"
 #include "frontend/pointer_choices.hpp"
+#include "frontend/power_up.hpp"
 #include "frontend/start_up.hpp"
 #include "frontend/vocabulary.hpp"
 
@@ -433,6 +434,7 @@ lowered_process lower(process_source& source) {
   run_passes(process, managers, late_cleanup());
   look_ahead(process, managers.function);
   managers.function.invalidate(process, llvm::PreservedAnalyses::none());
+  fold_power_up(process);
   narrow_counters(process, managers.function);
   find_unwritten(process, source.top);
   return result;
