@@ -16,8 +16,10 @@ packages=(
   liblemon-dev libopencv-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libfmt-dev libgtest-dev libgmock-dev
   libbenchmark-dev libz3-dev
   # hardware tools; those of scripts/fpga.sh that are not pinned packages of PyPI, which python3-venv is for
-  verilator yosys iverilog
+  verilator yosys iverilog z3
   nextpnr-ice40 fpga-icestorm openfpgaloader python3-venv
+  # reduces the random programs of scripts/fuzz.sh that fail
+  cvise
   # scripts (python3: the standard library only, but for the tests of report.json, which need jsonschema), and the check
   # of the sources' format, which is one of the tests
   python3 python3-jsonschema ca-certificates clang-format-19

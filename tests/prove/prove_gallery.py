@@ -45,7 +45,7 @@ def main():
     parser.add_argument("--random", type=int, nargs=2, default=(0, 0), metavar=("FIRST", "COUNT"))
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("kernels", type=pathlib.Path, nargs="*")
-    given = parser.parse_args()
+    given = parser.parse_intermixed_args()
     compiler = given.compiler.resolve()
     given.work.mkdir(parents=True, exist_ok=True)
     sources = list(given.kernels)

@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+"""Streams keep their rules, proved by k-induction: the FIFO between processes, and in generated modules the input buffers,
+the credits and the output FIFOs; and proofs of faulty ones, which must fail (see handshake_properties.py).
+
+  prove_handshakes_test.py EPILINE-HLS
+"""
+
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from handshake_properties import prove, with_fifo_properties, with_handshake_properties
+
+compiler = pathlib.Path(sys.argv.pop(1)).resolve()
+kernels = pathlib.Path(__file__).resolve().parents[1] / "compiler/kernels"
+
+# An iteration a clock; the last one reads and writes in some iterations only.
+modules = ["prefix_sum", "moving_average", "bit_reversal"]
+
+# Faults, each as (what it is, regular expression, what takes its place).
+fifo_faults = [
+    ("a word too many", r"room <= next_fill <= \{1'b0, LAST\}", "room <= 1'b1"),
+    ("a word too few", r"room <= next_fill <= \{1'b0, LAST\}", "room <= next_fill < {1'b0, LAST}"),
+    ("an offer taken back", r"word_there <= load \| \(word_there & ~out_tready\)", "word_there <= load"),
+    ("a word over one that waits", r"& \(out_tready \| ~word_there\);", ";"),
+    ("a word twice", r"if \(load\) out_at <=", "if (load & ~push) out_at <="),
+    ("words in another order", r"places\[in_at\] <= in_tdata", "places[LAST - in_at] <= in_tdata"),
+    ("no way around", r"in_at <= \(in_at == LAST\) \? \{POINTER\{1'b0\}\} : in_at \+ 1'b1", "in_at <= in_at + 1'b1"),
+    ("a fill that a reset leaves", r"      fill <= [^;]*;", ""),
+    ("no word without a push", r"wire load = ", "wire load = in_tvalid & "),
+]
+module_faults = [
+    ("input: a token into the wrong register", r"s_ready & ~s_fills_second", "s_ready & s_fills_second"),
+    ("input: registers that are not read in turn", r"s_reads_second <= s_reads_second \^ s_take",
+     "s_reads_second <= s_reads_second"),
+    ("input: a token over another", r"s_ready <= ~\(.*\);", "s_ready <= 1'b1;"),
+    ("input: room for one only", r"s_ready <= ~\(.*\);", "s_ready <= ~s_push;"),
+    ("input: a token that is forgotten", r"s_there <= s_push \| .*;", "s_there <= s_push;"),
+    ("input: a token that stays", r"s_there <= s_push \| .*;", "s_there <= s_push | s_there;"),
+    ("an iteration without its token", r"    & s_there;", "    ;"),
+    ("an iteration without room", r"may_issue <= ~holding_next & m_room", "may_issue <= ~holding_next"),
+    ("room that is counted twice", r"m_credits_next > 4'd1", "m_credits_next > 4'd0"),
+    ("room given back early", r"m_left <= m_load", "m_left <= m_load | (m_in != m_out)"),
+    ("room lost in a reset", r"m_credits <= 4'd8", "m_credits <= 4'd7"),
+    ("output: an offer taken back", r"m_word_there <= m_load \| .*;", "m_word_there <= m_load;"),
+    ("output: a word that changes", r"if \(m_load\) m_word <=", "m_word <="),
+    ("output: a word that is offered late", r"wire m_load = ", "wire m_load = ~s_push & "),
+    ("output: a word at another place", r"m_fifo\[m_in\[2:0\]\] <= m_data", "m_fifo[~m_in[2:0]] <= m_data"),
+    ("issue while a reset drains the pipeline", r"      holding <= 1'b1;", "      holding <= 1'b0;"),
+]
+
+
+class handshakes(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        place = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(place.cleanup)
+        cls.verilog = {}
+        for name in [*modules, "dataflow_gain"]:
+            subprocess.run([compiler, kernels / f"{name}.cpp", "--top", name, "-o", place.name, "--quiet"], check=True,
+                           capture_output=True)
+            cls.verilog[name] = (pathlib.Path(place.name) / f"{name}.v").read_text(encoding="utf-8")
+
+    def prove_fifo(self, verilog, depth):
+        self.assertIn("module epiline_fifo_distributed", verilog)
+        pointer = (depth - 1).bit_length()
+        return prove(with_fifo_properties(verilog), "epiline_fifo_distributed",
+                     [("WIDTH", 2), ("DEPTH", depth), ("POINTER", pointer), ("LAST", depth - 1)])
+
+    def test_the_fifo_keeps_order_and_number(self):
+        for depth in (2, 3, 4):
+            with self.subTest(depth):
+                verdict, output = self.prove_fifo(self.verilog["dataflow_gain"], depth)
+                self.assertEqual(verdict, "proved", output[-3000:])
+
+    def test_a_faulty_fifo_does_not(self):
+        for fault, pattern, replacement in fifo_faults:
+            with self.subTest(fault):
+                verilog, count = re.subn(pattern, replacement, self.verilog["dataflow_gain"])
+                self.assertEqual(count, 1)
+                verdict, output = self.prove_fifo(verilog, 3)
+                self.assertEqual(verdict, "refuted", output[-3000:])
+
+    def test_generated_modules_keep_the_rules(self):
+        for name in modules:
+            with self.subTest(name):
+                verilog, inputs, outputs = with_handshake_properties(self.verilog[name], name)
+                self.assertEqual((inputs, outputs), (1, 1))
+                verdict, output = prove(verilog, name, cut="*_data")
+                self.assertEqual(verdict, "proved", output[-3000:])
+
+    def test_a_faulty_module_does_not(self):
+        for fault, pattern, replacement in module_faults:
+            with self.subTest(fault):
+                verilog, count = re.subn(pattern, replacement, self.verilog["prefix_sum"])
+                self.assertEqual(count, 1)
+                verdict, output = prove(with_handshake_properties(verilog, "prefix_sum")[0], "prefix_sum", cut="*_data")
+                self.assertIn(verdict, ("refuted", "not inductive"), output[-3000:])
+
+
+if __name__ == "__main__":
+    unittest.main()
