@@ -84,6 +84,8 @@ class relation {
     std::vector<dataflow::register_id> enables, addresses, data;
   };
 
+  /// Whether reads may miss the latest writes to a memory. Where the source promises its distance, they do not look.
+  static bool lags(const dataflow::memory& m);
   void choose_masks();
   void start_before();
   void start_after();
