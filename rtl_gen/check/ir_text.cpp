@@ -132,7 +132,7 @@ class source_rewriter : rewriter {
   payload payload_of(const llvm::CallInst& call) {
     llvm::Type* const type =
         llvm::cast<llvm::GlobalVariable>(call.getArgOperand(2)->stripPointerCasts())->getValueType();
-    return {type, frontend::leaves_of(type, module_.getDataLayout(), {})};
+    return {type, frontend::leaves_of(type, module_, {})};
   }
 
   void replace(llvm::CallInst& old, llvm::StringRef name) {

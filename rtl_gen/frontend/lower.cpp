@@ -145,7 +145,7 @@ class port_lowering {
 
   [[nodiscard]] std::vector<leaf> payload_leaves(llvm::Type* type, const source_place& place) const {
     refuse_members_like_padding(type, *result_.function->getParent(), place);
-    std::vector<leaf> leaves = leaves_of(type, layout(), place);
+    std::vector<leaf> leaves = leaves_of(type, *result_.function->getParent(), place);
     check_width(width_of(leaves), place);
     return leaves;
   }

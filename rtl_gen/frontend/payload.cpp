@@ -36,9 +36,27 @@ std::uint64_t source_alignment(llvm::Type* type, const llvm::DataLayout& layout)
   return alignment;
 }
 
+/// Whether element `index`, `bytes` bytes, stands where a gap of a struct with ap types would be, and fills it.
+bool fills_a_gap(const llvm::StructType& structure, unsigned index, std::uint64_t bytes,
+                 const llvm::DataLayout& layout) {
+  if (!structure.isPacked() || bytes > 15) return false;
+  const llvm::StructLayout& offsets = *layout.getStructLayout(const_cast<llvm::StructType*>(&structure));
+  const std::uint64_t begin = offsets.getElementOffset(index);
+  std::uint64_t alignment = 1;
+  if (index + 1 < structure.getNumElements()) {
+    alignment = source_alignment(structure.getElementType(index + 1), layout);
+  } else {
+    alignment = source_alignment(const_cast<llvm::StructType*>(&structure), layout);
+  }
+  return begin % alignment != 0 && (begin + bytes) % alignment == 0 && bytes < alignment;
+}
+
+bool is_padding_byte(const llvm::StructType& structure, unsigned index, const llvm::Module& module);
+
 struct collector {
   const source_place& place;
   const llvm::DataLayout& layout;
+  const llvm::Module* module;  // whose debug information tells a padding byte from a member; may be null
   std::vector<leaf> leaves;
   std::vector<unsigned> path;
   unsigned axis_field = 0;
@@ -62,7 +80,7 @@ struct collector {
         llvm::Type* const member = structure->getElementType(i);
         if (const unsigned tag = tag_of(member, 32); tag != 0)
           axis_field = tag;
-        else if (!is_padding(*structure, i, layout))
+        else if (!is_padding(*structure, i, layout) && (module == nullptr || !is_padding_byte(*structure, i, *module)))
           visit_member(member, i);
       }
       axis_field = outside;
@@ -106,6 +124,30 @@ llvm::StringRef member_at(const llvm::DICompositeType& type, std::uint64_t bit) 
   return "";
 }
 
+/// clang writes a gap of one byte as an i8, as it does a `char` or a `bool`: only the debug information tells them
+/// apart.
+bool is_padding_byte(const llvm::StructType& structure, unsigned index, const llvm::Module& module) {
+  const llvm::DataLayout& layout = module.getDataLayout();
+  if (!structure.getElementType(index)->isIntegerTy(8) || !structure.hasName() ||
+      !fills_a_gap(structure, index, 1, layout))
+    return false;
+  auto* type = const_cast<llvm::StructType*>(&structure);
+  const std::uint64_t bit = 8 * layout.getStructLayout(type)->getElementOffset(index);
+  llvm::DebugInfoFinder finder;
+  finder.processModule(module);
+  bool is_known = false;
+  for (const llvm::DIType* described : finder.types()) {
+    const auto* composite = llvm::dyn_cast<llvm::DICompositeType>(described);
+    if (composite == nullptr || composite->isForwardDecl() ||
+        short_name(composite->getName()) != short_name(structure.getName()) ||
+        composite->getSizeInBits() != layout.getTypeAllocSizeInBits(type))
+      continue;
+    if (!member_at(*composite, bit).empty()) return false;
+    is_known = true;
+  }
+  return is_known;
+}
+
 llvm::Value* address_of(llvm::IRBuilderBase& builder, llvm::Value* pointer, llvm::Type* type, const leaf& member) {
   std::vector<llvm::Value*> indices{builder.getInt32(0)};
   for (const unsigned index : member.path) indices.push_back(builder.getInt32(index));
@@ -116,19 +158,8 @@ llvm::Value* address_of(llvm::IRBuilderBase& builder, llvm::Value* pointer, llvm
 
 bool is_padding(const llvm::StructType& structure, unsigned index, const llvm::DataLayout& layout) {
   auto* bytes = llvm::dyn_cast<llvm::ArrayType>(structure.getElementType(index));
-  if (!structure.isPacked() || bytes == nullptr || !bytes->getElementType()->isIntegerTy(8) ||
-      bytes->getNumElements() > 15)
-    return false;
-  const llvm::StructLayout& offsets = *layout.getStructLayout(const_cast<llvm::StructType*>(&structure));
-  const std::uint64_t begin = offsets.getElementOffset(index);
-  std::uint64_t alignment = 1;
-  if (index + 1 < structure.getNumElements()) {
-    alignment = source_alignment(structure.getElementType(index + 1), layout);
-  } else {
-    alignment = source_alignment(const_cast<llvm::StructType*>(&structure), layout);
-  }
-  return begin % alignment != 0 && (begin + bytes->getNumElements()) % alignment == 0 &&
-         bytes->getNumElements() < alignment;
+  return bytes != nullptr && bytes->getElementType()->isIntegerTy(8) &&
+         fills_a_gap(structure, index, bytes->getNumElements(), layout);
 }
 
 bool is_arbitrary_precision(llvm::Type* type, unsigned& width, bool& is_signed) {
@@ -176,7 +207,13 @@ void refuse_members_like_padding(llvm::Type* type, const llvm::Module& module, c
 }
 
 std::vector<leaf> leaves_of(llvm::Type* type, const llvm::DataLayout& layout, const source_place& place) {
-  collector all{place, layout, {}, {}, 0};
+  collector all{place, layout, nullptr, {}, {}, 0};
+  all.visit(type);
+  return all.leaves;
+}
+
+std::vector<leaf> leaves_of(llvm::Type* type, const llvm::Module& module, const source_place& place) {
+  collector all{place, module.getDataLayout(), &module, {}, {}, 0};
   all.visit(type);
   return all.leaves;
 }

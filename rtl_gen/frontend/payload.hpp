@@ -37,6 +37,9 @@ void refuse_members_like_padding(llvm::Type* type, const llvm::Module& module, c
 /// The leaves of a payload type in order. Refuses (at `place`) floating point, pointers and other foreign types.
 [[nodiscard]] std::vector<leaf> leaves_of(llvm::Type* type, const llvm::DataLayout& layout, const source_place& place);
 
+/// The same with the module's debug information, without which padding of one byte is taken for a member.
+[[nodiscard]] std::vector<leaf> leaves_of(llvm::Type* type, const llvm::Module& module, const source_place& place);
+
 /// The RTL fields of a port that carries these leaves: tdata alone, or one group an AXI4-Stream member.
 [[nodiscard]] std::vector<dataflow::field> fields_of(const std::vector<leaf>& leaves);
 
