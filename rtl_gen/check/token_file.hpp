@@ -2,11 +2,11 @@
 // Token files, which people write and keep: stimulus for a top and, if they like, what it should answer.
 //
 //   # a comment
-//   port in input stream tdata:12 tlast:1      a port of the top, and its signals with their widths in bits
-//   token fff 0                                one token, one hexadecimal number a signal
-//   port call input call width:11 height:11    the scalars by value, one token a call
-//   port out output stream tdata:8             optional: what is expected
-//   port found output result tdata:8           a scalar by reference, one token a call
+//   port in input stream tdata:12 tlast:1      # a port of the top, and its signals with their widths in bits
+//   token fff 0                                # one token, one hexadecimal number a signal
+//   port call input call width:11 height:11    # the scalars by value, one token a call
+//   port out output stream tdata:8             # optional: what is expected
+//   port found output result tdata:8           # a scalar by reference, one token a call
 
 #include <filesystem>
 #include <string>
