@@ -148,8 +148,8 @@ inline void require_streams_drained() {
   if (!message.empty()) throw stream_error("hls::stream: tokens left unread at the end in " + message);
 }
 
-/// Called when a read finds a stream empty: a testbench that makes tokens up as they are asked for may write one into it
-/// now. Null: there is none.
+/// Called when a read finds a stream empty: a testbench that makes tokens up as they are asked for may write one into
+/// it now. Null: there is none.
 inline void (*on_empty_read)(const detail::stream_base& empty) = nullptr;
 
 template <class T, int DEPTH = 0>
