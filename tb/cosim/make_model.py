@@ -123,10 +123,8 @@ def fail(message):
     sys.exit(f"make_model.py: {message}")
 
 
-def main():
-    if len(sys.argv) != 4:
-        fail(__doc__.split("\n\n")[1])
-    report, name, folder = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
+def write_model(report, name, folder):
+    """Writes the binding of the model Vname of the module that the file `report` describes."""
     try:
         with open(report, encoding="utf-8") as file:
             content = json.load(file)
@@ -164,6 +162,12 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     (folder / f"{name}_model.hpp").write_text(HEADER.format(**values), encoding="utf-8")
     (folder / f"{name}_model.cpp").write_text(SOURCE.format(**values), encoding="utf-8")
+
+
+def main():
+    if len(sys.argv) != 4:
+        fail(__doc__.split("\n\n")[1])
+    write_model(sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3]))
 
 
 if __name__ == "__main__":

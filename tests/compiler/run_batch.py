@@ -7,6 +7,7 @@ and one C++ build, and a module that is not being looked at costs nothing.
   run_batch.py [options] kernels NAME...         tests/compiler/kernels/NAME.cpp with their drivers
   run_batch.py [options] regressions NAME...     tests/compiler/regressions/NAME.cpp with their drivers
   run_batch.py [options] random FIRST COUNT      programs of random_program.py, seeds FIRST to FIRST + COUNT - 1
+  run_batch.py [options] files FOLDER NAME...    FOLDER/NAME.cpp with FOLDER/NAME.drive.cpp, as random_program.py writes them
 
 Prints one line a failure, which names the program's file, the level (compiler, native, graph, RTL) and the first differing
 token, and a summary. Exit code 1 if anything failed.
@@ -15,9 +16,11 @@ token, and a summary. Exit code 1 if anything failed.
 import argparse
 import concurrent.futures
 import json
+import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -27,9 +30,13 @@ ROOT = HERE.parent.parent
 sys.path.insert(0, str(HERE))
 sys.path.insert(0, str(ROOT / "tb" / "cosim"))
 
+import make_model  # noqa: E402
 import random_program  # noqa: E402
 
 COMPILER_SECONDS = 60
+NATIVE_SECONDS = 120
+# Every so manieth random program is made with a schedule drawn at random from the legal ones.
+RANDOM_SCHEDULE_EVERY = 4
 
 
 class Batch:
@@ -39,6 +46,7 @@ class Batch:
         self.failures = []
         self.notes = []
         self.sources = {}  # name -> source file
+        self.features = {}  # name -> what is in a random program
         self.started = time.monotonic()
 
     def fail(self, name, level, text):
@@ -47,15 +55,43 @@ class Batch:
         print(f"FAILED {name}: {level}: {text}" + (f"\n    program: {source}" if source else ""), flush=True)
 
     def stage(self, text):
-        print(f"[{time.monotonic() - self.started:6.1f} s] {text}", flush=True)
+        processor = sum(os.times()[:4])
+        print(f"[{time.monotonic() - self.started:6.1f} s, {processor:.1f} s of processor] {text}", flush=True)
 
     def parallel(self, function, items):
         with concurrent.futures.ThreadPoolExecutor(self.options.jobs) as pool:
             return list(pool.map(function, items))
 
+    def write_json(self, file, names):
+        """What happened to each program: {"programs": {NAME: {"features": {...}, "level", "text"}}, "notes", ...}."""
+        used = os.times()
+        programs = {}
+        for name in names:
+            programs[name] = {"features": sorted(" ".join(f).strip() for f in self.features.get(name, {}))}
+        for name, level, text in self.failures:
+            programs.setdefault(name, {}).update({"level": level, "text": text})
+        pathlib.Path(file).write_text(json.dumps({"programs": programs, "notes": self.notes,
+                                                  "seconds": time.monotonic() - self.started,
+                                                  "processor_seconds": sum(used[:4])}), encoding="utf-8")
+
     # ---- native -------------------------------------------------------------------------------------------------
     def native_flags(self):
         return ["-std=c++20", "-w", "-O0", f"-I{ROOT / 'hls' / 'types'}", f"-I{HERE}"]
+
+    def precompiled(self, compiler, extra):
+        """The options that make `compiler` take what every driver includes from a precompiled header."""
+        folder = pathlib.Path(self.options.precompiled or self.work / "precompiled").resolve()
+        is_clang = "clang" in pathlib.Path(compiler).name
+        header = folder / re.sub(r"\W", "_", " ".join([compiler, *extra])) / "drive.hpp"
+        made = header.with_name("drive.hpp.pch" if is_clang else "drive.hpp.gch")
+        if not made.exists():
+            header.parent.mkdir(parents=True, exist_ok=True)
+            header.write_text(f'#include "{HERE / "drive.hpp"}"\n', encoding="utf-8")
+            part = made.with_suffix(f".{os.getpid()}")
+            subprocess.run([compiler, *self.native_flags(), *extra, "-x", "c++-header", str(header), "-o", str(part)],
+                           check=True)
+            part.rename(made)
+        return ["-include-pch", str(made)] if is_clang else ["-include", str(header)]
 
     def run_native(self, names):
         """Token files of kernels and regressions, by the driver program CMake built."""
@@ -72,12 +108,13 @@ class Batch:
         tokens.mkdir(parents=True, exist_ok=True)
         build = self.work / ("native_" + re.sub(r"\W", "_", pathlib.Path(compiler).name))
         build.mkdir(exist_ok=True)
-        size = 13
+        size = 25
+        header = self.precompiled(compiler, extra)
 
         def compile_source(stem, text):
             source = build / f"{stem}.cpp"
             source.write_text(text, encoding="utf-8")
-            run = subprocess.run([compiler, *self.native_flags(), *extra, f"-I{folder}", "-c", str(source), "-o",
+            run = subprocess.run([compiler, *header, *self.native_flags(), *extra, f"-I{folder}", "-c", str(source), "-o",
                                   str(source.with_suffix(".o"))], capture_output=True, text=True, check=False)
             return run, str(source.with_suffix(".o"))
 
@@ -94,25 +131,38 @@ class Batch:
             return halves[0][0] + halves[1][0], halves[0][1] + halves[1][1]
 
         parts = self.parallel(compile_part, [names[i:i + size] for i in range(0, len(names), size)])
-        run, main = compile_source("main", f'#include "{HERE / "drive_main.cpp"}"\n')
-        if run.returncode != 0:
-            self.fail("drive_main", "native", run.stderr.strip()[-400:])
-            return []
+        main = pathlib.Path(header[1]).with_name("main.o")  # the same for every batch
+        if not main.exists():
+            run, made = compile_source("main", f'#include "{HERE / "drive_main.cpp"}"\n')
+            if run.returncode != 0:
+                self.fail("drive_main", "native", run.stderr.strip()[-400:])
+                return []
+            pathlib.Path(made).rename(main)
         names = sum((p[1] for p in parts), [])
         program = build / "drivers"
-        subprocess.run([compiler, *extra, *sum((p[0] for p in parts), []), main, "-o", str(program)], check=True)
-        good = []
-        run = subprocess.run([str(program), str(tokens)], capture_output=True, text=True, check=False)
-        if run.returncode != 0:
-            # One of them stopped the program: find out which.
-            for name in names:
-                run = subprocess.run([str(program), str(tokens), name], capture_output=True, text=True, check=False)
-                if run.returncode != 0:
-                    self.fail(name, "native", run.stderr.strip()[-400:] or f"exit code {run.returncode}")
-                else:
-                    good.append(name)
-            return good
-        return list(names)
+        subprocess.run([compiler, *extra, *sum((p[0] for p in parts), []), str(main), "-o", str(program)], check=True)
+
+        def drive(*only):
+            """What went wrong, or nothing."""
+            try:
+                run = subprocess.run(["prlimit", f"--cpu={NATIVE_SECONDS}:{NATIVE_SECONDS + 5}", str(program), str(tokens), *only],
+                                     capture_output=True, text=True, timeout=30 * NATIVE_SECONDS, check=False)
+            except subprocess.TimeoutExpired:
+                run = None
+            if run is None or run.returncode == -signal.SIGXCPU:
+                return f"runs for more than {NATIVE_SECONDS} s"
+            return "" if run.returncode == 0 else run.stderr.strip()[-400:] or f"exit code {run.returncode}"
+
+        if not drive():
+            return list(names)
+        good = []  # One of them stopped the program: find out which.
+        for name in names:
+            problem = drive(name)
+            if problem:
+                self.fail(name, "native", f"{compiler}: {problem}")
+            else:
+                good.append(name)
+        return good
 
     # ---- the compiler -------------------------------------------------------------------------------------------
     def compile_program(self, name):
@@ -124,12 +174,18 @@ class Batch:
                 options = match.group(1).split()
         folder = self.work / "rtl" / name
         shutil.rmtree(folder, ignore_errors=True)
+        schedule = []
+        if name.startswith("random_") and int(name.split("_")[1]) % RANDOM_SCHEDULE_EVERY == 0:
+            schedule = ["--schedule", "random", "--seed", name.split("_")[1]]
         text = ""
         for attempt in range(3):
-            command = [self.options.compiler, str(source), "--top", name, "-o", str(folder), *options]
+            # Processor time: the machine may be busy with something else.
+            command = ["prlimit", f"--cpu={COMPILER_SECONDS}:{COMPILER_SECONDS + 5}", self.options.compiler, str(source), "--top", name, "-o", str(folder), *options, *schedule]
             try:
-                run = subprocess.run(command, capture_output=True, text=True, timeout=COMPILER_SECONDS, check=False)
+                run = subprocess.run(command, capture_output=True, text=True, timeout=30 * COMPILER_SECONDS, check=False)
             except subprocess.TimeoutExpired:
+                run = None
+            if run is None or run.returncode == -signal.SIGXCPU:
                 self.fail(name, "compiler", f"takes more than {COMPILER_SECONDS} s: {' '.join(command)}")
                 return None
             if run.returncode == 0:
@@ -179,8 +235,7 @@ class Batch:
                 "#pragma once\n#include \"Vgroup.h\"\n"
                 f"class V{name} : public Vgroup {{\n public:\n  using Vgroup::Vgroup;\n" + "\n".join(members) + "\n};\n",
                 encoding="utf-8")
-            subprocess.run([sys.executable, str(ROOT / "tb" / "cosim" / "make_model.py"),
-                            str(self.work / "rtl" / name / "report.json"), name, str(folder)], check=True)
+            make_model.write_model(str(self.work / "rtl" / name / "report.json"), name, folder)
         (folder / "group.v").write_text(
             "module group (\n  " + ",\n  ".join(wrapper_ports) + "\n);\n" + "\n".join(instances) + "\nendmodule\n",
             encoding="utf-8")
@@ -211,7 +266,7 @@ class Batch:
         root = subprocess.run(["verilator", "--getenv", "VERILATOR_ROOT"], capture_output=True, text=True,
                               check=True).stdout.strip()
         run = subprocess.run(
-            [self.options.cxx, "-std=c++20", "-O1", "-w", "-fPIC", "-shared", f"-I{folder}", f"-I{folder / 'model'}",
+            [self.options.cxx, "-std=c++20", self.options.model_flags, "-w", "-fPIC", "-shared", f"-I{folder}", f"-I{folder / 'model'}",
              f"-I{ROOT / 'tb'}", f"-I{root}/include", f"-I{root}/include/vltstd", str(folder / "models.cpp"),
              str(folder / "model" / "Vgroup__ALL.a"), self.options.verilated, "-pthread", "-o", str(folder / "models.so")],
             capture_output=True, text=True, check=False)
@@ -296,36 +351,53 @@ def main():
     parser.add_argument("--cxx", default="clang++-19")
     parser.add_argument("--also-native", default="", help="a second C++ compiler: its native run must write the same tokens")
     parser.add_argument("--model-flags", default="-O1")
+    parser.add_argument("--precompiled", default="", help="folder of precompiled headers, made where missing")
+    parser.add_argument("--json", default="", help="file for what happened to each program")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--group", type=int, default=25, help="modules in one Verilator build")
     parser.add_argument("--graph-only", action="store_true", help="without RTL")
     parser.add_argument("--no-retry", dest="retry", action="store_false",
                         help="a period that is too short is a failure, even if the compiler names one that would do")
     parser.add_argument("--sanitize", action="store_true", help="native runs with the undefined behaviour sanitizer")
-    parser.add_argument("what", choices=["kernels", "regressions", "random"])
+    parser.add_argument("what", choices=["kernels", "regressions", "random", "files"])
     parser.add_argument("names", nargs="+")
     options = parser.parse_args()
     batch = Batch(options)
     batch.work.mkdir(parents=True, exist_ok=True)
+    if not options.precompiled:  # made of headers that may have changed since
+        shutil.rmtree(batch.work / "precompiled", ignore_errors=True)
 
-    if options.what == "random":
-        first, count = (int(n) for n in options.names)
-        names = [f"random_{seed}" for seed in range(first, first + count)]
+    if options.what in ("random", "files"):
         folder = batch.work / "programs"
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()
-        for seed in range(first, first + count):
-            random_program.write(seed, folder)
+        if options.what == "random":
+            first, count = (int(n) for n in options.names)
+            names = [f"random_{seed}" for seed in range(first, first + count)]
+            for seed in range(first, first + count):
+                batch.features[f"random_{seed}"] = random_program.write(seed, folder)
+        else:
+            names = options.names[1:]
+            for name in names:
+                for file in (f"{name}.cpp", f"{name}.drive.cpp"):
+                    shutil.copy(pathlib.Path(options.names[0]) / file, folder)
         batch.sources = {n: folder / f"{n}.cpp" for n in names}
-        extra = ["-fsanitize=undefined", "-fno-sanitize-recover=all"] if options.sanitize else []
+        extra = []
+        if options.sanitize:
+            extra = ["-fsanitize=undefined", "-fno-sanitize-recover=all"]
+            if "clang" in options.cxx:  # what is read before it is written differs from the other compiler's
+                extra.append("-ftrivial-auto-var-init=pattern")
         shutil.rmtree(batch.work / "tokens", ignore_errors=True)
         ready = batch.build_random(names, options.cxx, batch.work / "tokens", extra)
         if options.also_native:
             other = batch.work / "tokens_other"
             shutil.rmtree(other, ignore_errors=True)
-            for name in batch.build_random(names, options.also_native, other):
+            agreeing = set(batch.build_random(ready, options.also_native, other))
+            for name in sorted(agreeing):
                 if (other / f"{name}.tokens").read_bytes() != (batch.work / "tokens" / f"{name}.tokens").read_bytes():
                     batch.fail(name, "native", f"{options.cxx} and {options.also_native} disagree")
+                    agreeing.remove(name)
+            ready = [n for n in ready if n in agreeing]
     else:
         names = options.names
         batch.sources = {n: HERE / options.what / f"{n}.cpp" for n in names}
@@ -336,6 +408,8 @@ def main():
     for note in batch.notes:
         print(f"note: not as asked but with {note}")
     print(f"{len(good)} of {len(names)} equal: native = graph" + ("" if options.graph_only else " = RTL"))
+    if options.json:
+        batch.write_json(options.json, names)
     sys.exit(0 if len(good) == len(names) and not batch.failures else 1)
 
 

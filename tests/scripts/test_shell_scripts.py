@@ -33,14 +33,14 @@ class every_script(unittest.TestCase):
                 self.assertEqual(os.access(script, os.X_OK), script.name != "common.sh")
 
     def test_unknown_arguments_are_refused(self):
-        for name in ("setup.sh", "test.sh", "demo.sh", "format.sh", "fpga_nightly.sh"):
+        for name in ("setup.sh", "test.sh", "demo.sh", "format.sh", "fpga_nightly.sh", "fuzz.sh"):
             with self.subTest(name):
                 result = run(scripts / name, "--nonsense")
                 self.assertEqual(result.returncode, 1)
                 self.assertIn(f"{name}: error: unknown argument '--nonsense'", result.stderr)
 
     def test_help_says_how_to_call(self):
-        for name in ("setup.sh", "test.sh", "demo.sh", "fpga_nightly.sh"):
+        for name in ("setup.sh", "test.sh", "demo.sh", "fpga_nightly.sh", "fuzz.sh"):
             with self.subTest(name):
                 result = run(scripts / name, "--help")
                 self.assertEqual(result.returncode, 0)

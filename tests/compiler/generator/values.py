@@ -1,0 +1,45 @@
+"""Types, values and variables of random programs."""
+
+MAX_WIDTH = 200
+# Every width of a value falls into one of these: the statistics tell which features met which widths.
+WIDTH_CLASSES = ((1, 1), (2, 2), (3, 30), (31, 33), (34, 62), (63, 65), (66, 128), (129, 200), (201, 1000))
+C_TYPES = {"bool": (1, False), "signed char": (8, True), "unsigned char": (8, False), "short": (16, True),
+           "unsigned short": (16, False), "int": (32, True), "unsigned": (32, False), "long long": (64, True),
+           "unsigned long long": (64, False)}
+
+
+def type_name(width, signed):
+    return f"{'ap_int' if signed else 'ap_uint'}<{width}>"
+
+
+def width_class(width):
+    low, high = next(c for c in WIDTH_CLASSES if c[0] <= width <= c[1])
+    return str(low) if low == high else f"{low}-{high}"
+
+
+class Value:
+    """An expression: its text, an upper bound of its width, its sign and how it may be used."""
+
+    def __init__(self, text, width, signed, proxy=False, tainted=False, c_int=False):
+        self.text, self.width, self.signed = text, width, signed
+        self.proxy = proxy  # a range or bit of another object: no `auto`, no member calls
+        self.tainted = tainted  # depends on loop-carried values that feed back
+        self.c_int = c_int  # a plain C++ integer: needs a cast before member calls and ap-only operators
+
+    def cast(self, width, signed):
+        return Value(f"{type_name(width, signed)}({self.text})", width, signed, tainted=self.tainted)
+
+    def as_ap(self):
+        return self.cast(self.width, self.signed) if self.c_int or self.proxy else self
+
+
+class Variable:
+    def __init__(self, name, width, signed, tainted=False, mutable=True):
+        self.name, self.width, self.signed, self.tainted, self.mutable = name, width, signed, tainted, mutable
+
+    def value(self):
+        return Value(self.name, self.width, self.signed, tainted=self.tainted)
+
+
+def r_width(r, widest):
+    return r.choice([min(widest, 16), widest, r.randint(1, widest)])
