@@ -46,8 +46,8 @@ struct delay_parameters {
   unsigned most_enabled = 48;        // flip-flops that one clock enable drives: a row of slices or two
   unsigned most_reset = 4096;        // flip-flops that one reset clears: few different resets, or slices fill badly
   unsigned very_many_readers = 64;   // from here on a value is in a flip-flop for a clock before its copies are
-  unsigned many_blocks = 8;          // block RAMs of one memory: from here on its words pass a flip-flop for their wires
-  unsigned block_bits = 0;           // of one block RAM
+  unsigned many_blocks = 8;  // block RAMs of one memory: from here on its words pass a flip-flop for their wires
+  unsigned block_bits = 0;   // of one block RAM
   unsigned block_max_width = 0;
 };
 

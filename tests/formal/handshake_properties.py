@@ -62,7 +62,7 @@ FIFO = RESET + """
   end
 """
 
-INPUT = """
+BUFFER = """
   reg [2:0] {n}_formal_in, {n}_formal_out;
   (* anyconst *) reg [2:0] {n}_formal_watched;
   reg [{top}:0] {n}_formal_expected;
@@ -103,8 +103,6 @@ OUTPUT = """
     {n}_formal_filled <= ~rst & ~resetting & ({n}_in != {n}_out);
   end
   always @* if (formal_started) begin
-    if (formal_just_reset) assert (!{valid});
-    // An offer stands, unchanged, until it is taken.
     if ({n}_formal_waited) assert ({valid} && {n}_word == {n}_formal_offered);
     if (!resetting) begin
       // Whatever is on its way has room, so nothing overflows.
@@ -121,6 +119,20 @@ OUTPUT = """
       if ({n}_formal_ahead < {n}_formal_held && !({valid} && {n}_formal_ahead == 0))
         assert ({n}_fifo[{n}_formal_watched[{pointer}:0]] == {n}_formal_expected);
     end
+  end
+"""
+
+# What a module gives out: an offer stands, unchanged, until it is taken, and a reset withdraws it.
+OFFER = """
+  reg [{top}:0] {n}_formal_token;
+  reg {n}_formal_stands;
+  always @(posedge clk) begin
+    {n}_formal_stands <= ~rst & {valid} & ~{ready};
+    {n}_formal_token <= {n}_token;
+  end
+  always @* if (formal_started) begin
+    if (formal_just_reset) assert (!{valid});
+    if ({n}_formal_stands) assert ({valid} && {n}_token == {n}_formal_token);
   end
 """
 
@@ -155,13 +167,17 @@ def with_handshake_properties(verilog, module):
     drained = "\n".join(f"    if (resetting && hold + {stage} <= {hold}) assert (!formal_stages[{stage}]);"
                         for stage in range(1, stages + 1))
     text += CONTROL.format(stages=stages, hold=hold, drained=drained)
-    inputs = re.findall(r"reg \w+_fills_second, (\w+)_reads_second;", verilog)
-    for name in inputs:
-        text += INPUT.format(
-            n=name, top=int(re.search(rf"reg \[(\d+):0\] {name}_first", verilog)[1]),
-            token=re.search(rf"{name}_first <= (.*);", verilog)[1],
-            valid=f"s_axis_{name}_tvalid", ready=f"s_axis_{name}_tready")
     outputs = re.findall(r"wire (\w+)_load = ", verilog)
+    buffers = re.findall(r"reg \w+_fills_second, (\w+)_reads_second;", verilog)
+    inputs = [name for name in buffers if name.removesuffix("_end") not in outputs]
+    for name in buffers:
+        top = int(re.search(rf"reg \[(\d+):0\] {name}_first", verilog)[1])
+        output = name.removesuffix("_end")
+        text += BUFFER.format(
+            n=name, top=top, token=re.search(rf"{name}_first <= (.*);", verilog)[1],
+            valid=f"s_axis_{name}_tvalid" if name in inputs else f"{output}_word_there", ready=f"{name}_ready")
+        if name not in inputs:
+            text += OFFER.format(n=name, top=top, valid=f"m_axis_{output}_tvalid", ready=f"m_axis_{output}_tready")
     for name in outputs:
         width, last = re.search(rf"reg \[(\d+):0\] {name}_fifo \[0:(\d+)\]", verilog).groups()
         counter = int(re.search(rf"reg \[(\d+):0\] {name}_in, {name}_out;", verilog)[1])
@@ -171,7 +187,7 @@ def with_handshake_properties(verilog, module):
         text += OUTPUT.format(
             n=name, top=width, counter=counter, pointer=counter - 1, depth=int(last) + 1, zeros=zeros,
             on_the_way=on_the_way, skipped=f" + {name}_skipped" if f"{name}_skipped" in verilog else "",
-            valid=f"m_axis_{name}_tvalid", ready=f"m_axis_{name}_tready")
+            valid=f"{name}_word_there", ready=f"{name}_end_ready")
     return insert(verilog, module, text), len(inputs), len(outputs)
 
 

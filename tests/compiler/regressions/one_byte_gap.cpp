@@ -1,5 +1,5 @@
-// A struct with a gap of one byte in front of `size`, and one that has a member in such a place: the gap was a part of the
-// token. What is read of the first goes out in the second.
+// A struct with a gap of one byte in front of `size`, and one that has a member in such a place: the gap was a part of
+// the token. What is read of the first goes out in the second.
 #include "ap_int.h"
 #include "hls_stream.h"
 
