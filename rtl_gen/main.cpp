@@ -131,6 +131,13 @@ class output_folder {
   std::vector<fs::path> files_;
 };
 
+/// The schedule that --schedule asks for.
+schedule::result schedule_as_asked(const dataflow::graph& graph, const schedule::delay_model& model,
+                                   const schedule::options& options, const command_line& given) {
+  return given.scheduler == "random" ? schedule::make_random_schedule(graph, model, options, given.seed)
+                                     : schedule::make_schedule(graph, model, options);
+}
+
 /// The schedule, at the smallest initiation interval allowed that is possible.
 schedule::result find_schedule(const dataflow::graph& graph, const schedule::delay_model& model,
                                const command_line& given, double period, unsigned allowed_by_source) {
@@ -143,8 +150,7 @@ schedule::result find_schedule(const dataflow::graph& graph, const schedule::del
     options.initiation_interval = largest = std::atoi(given.interval.c_str());
   for (;; ++options.initiation_interval) {
     try {
-      return given.scheduler == "random" ? schedule::make_random_schedule(graph, model, options, given.seed)
-                                         : schedule::make_schedule(graph, model, options);
+      return schedule_as_asked(graph, model, options, given);
     } catch (const schedule::infeasible& refusal) {
       if (options.initiation_interval < largest) continue;
       if (!given.clock.empty() || options.period != period || refusal.smallest_period() <= 0) throw;
@@ -160,14 +166,11 @@ schedule::result find_schedule(const dataflow::graph& graph, const schedule::del
 /// Schedules `graph`, and foresees its reads if that costs neither period nor clocks between iterations.
 schedule::result schedule_process(dataflow::graph& graph, const schedule::delay_model& model, const command_line& given,
                                   double period, unsigned allowed_by_source) {
-  const schedule::result plain = find_schedule(graph, model, given, period, allowed_by_source);
+  schedule::result plain = find_schedule(graph, model, given, period, allowed_by_source);
   dataflow::graph foreseen = graph;
-  passes::foresee_reads(foreseen);
+  if (!passes::foresee_reads(foreseen)) return plain;
   try {
-    const schedule::options same{plain.period, plain.initiation_interval};
-    schedule::result found = given.scheduler == "random"
-                                 ? schedule::make_random_schedule(foreseen, model, same, given.seed)
-                                 : schedule::make_schedule(foreseen, model, same);
+    schedule::result found = schedule_as_asked(foreseen, model, {plain.period, plain.initiation_interval}, given);
     graph = std::move(foreseen);
     return found;
   } catch (const schedule::infeasible&) {
@@ -313,8 +316,7 @@ void run(const command_line& given) {
   const emit::verilog_text verilog = emit::emit_network(network, model, schedules, {.axi_lite = given.axi_lite});
   output.write(name + ".v", verilog.text);
   output.write(name + ".signals.json", emit::signals_text(verilog.modules));
-  output.write(name + ".graph",
-               dataflow::is_single(network) ? dataflow::print(network.processes.front()) : dataflow::print(network));
+  output.write(name + ".graph", dataflow::print_design(network));
   output.write("report.json", report.dump(2) + "\n");
   output.write("report.txt", emit::network_report_text(report));
   output.write("report.html", emit::report_page(report, read_sources(network)));

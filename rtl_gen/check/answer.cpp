@@ -1,7 +1,8 @@
 #include "check/answer.hpp"
 
 #include <fmt/format.h>
-#include <llvm/ADT/SmallString.h>
+#include <llvm/ADT/StringExtras.h>
+#include <llvm/ADT/StringRef.h>
 
 #include <algorithm>
 
@@ -23,10 +24,12 @@ reference make_reference(const dataflow::network& n, const answer& native, std::
   return result;
 }
 
-std::string to_hexadecimal(const llvm::APInt& value) {
-  llvm::SmallString<32> text;
-  value.toString(text, 16, false, false, false);
-  return std::string(text);
+std::string to_hexadecimal(const llvm::APInt& value) { return llvm::toString(value, 16, false, false, false); }
+
+std::optional<llvm::APInt> from_hexadecimal(std::string_view digits, unsigned width) {
+  llvm::APInt value;
+  if (llvm::StringRef(digits).getAsInteger(16, value) || value.getActiveBits() > width) return std::nullopt;
+  return value.zextOrTrunc(width);
 }
 
 std::string describe(const dataflow::port& port, const llvm::APInt& token) {

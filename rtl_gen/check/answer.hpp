@@ -4,21 +4,17 @@
 #include <llvm/ADT/APInt.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "check/include/epiline/check_ending.hpp"
 #include "dataflow/network.hpp"
 
 namespace epiline::check {
 
 using token_list = std::vector<llvm::APInt>;
-
-/// Why a run of calls stopped.
-enum class ending {
-  boundary,  // there was no further call
-  blocked,   // a call lacked a token
-  endless,   // it would go on for ever without further input
-};
 
 struct answer {
   std::vector<token_list> outputs;           // by port of the network
@@ -62,5 +58,7 @@ struct difference {
 [[nodiscard]] std::string describe(const dataflow::port& port, const llvm::APInt& token);
 /// Without leading zeros.
 [[nodiscard]] std::string to_hexadecimal(const llvm::APInt& value);
+/// The number of up to `width` bits that hexadecimal digits write; empty: others are among them, or it has more bits.
+[[nodiscard]] std::optional<llvm::APInt> from_hexadecimal(std::string_view digits, unsigned width);
 
 }  // namespace epiline::check

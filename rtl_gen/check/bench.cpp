@@ -1,14 +1,15 @@
 #include "check/bench.hpp"
 
 #include <fmt/format.h>
-#include <llvm/ADT/StringRef.h>
 
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
+#include "check/files.hpp"
 #include "emit/interface.hpp"
 #include "emit/network_verilog.hpp"
 
@@ -190,11 +191,10 @@ std::string bench_text(const dataflow::network& n, const reference& wanted, std:
 void write_inputs(const std::filesystem::path& folder, const dataflow::network& n, const reference& wanted) {
   for (dataflow::port_id id = 0; id < n.ports.size(); ++id) {
     if (!n.ports[id].input) continue;
-    std::ofstream out(folder / fmt::format("in_{}.hex", id));
-    for (const llvm::APInt& token : wanted.inputs[id]) out << to_hexadecimal(token) << '\n';
-    if (wanted.inputs[id].empty()) out << "0\n";  // an empty file is a warning
-    out.flush();
-    if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", folder.string()));
+    std::string text;
+    for (const llvm::APInt& token : wanted.inputs[id]) text += to_hexadecimal(token) + '\n';
+    if (text.empty()) text = "0\n";  // an empty file is a warning
+    write_file(folder / fmt::format("in_{}.hex", id), text);
   }
 }
 
@@ -221,9 +221,9 @@ bench_answer read_bench_answer(const std::filesystem::path& file, const dataflow
                                    n.ports[port].name, result.outputs[port].size(), digits);
       return result;
     }
-    llvm::APInt value;
-    (void)llvm::StringRef(digits).getAsInteger(16, value);
-    result.outputs[port].push_back(value.zextOrTrunc(n.ports[port].width));
+    std::optional<llvm::APInt> token = from_hexadecimal(digits, n.ports[port].width);
+    if (!token) break;
+    result.outputs[port].push_back(std::move(*token));
   }
   if (!is_complete) throw std::runtime_error("the simulation ended before its end");
   return result;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <ostream>
 
+#include "check/files.hpp"
 #include "check/graph_level.hpp"
 #include "check/program.hpp"
 #include "check/simulation.hpp"
@@ -116,14 +117,7 @@ struct checker::state {
     return text.replace(at, planted->from.size(), planted->to);
   }
 
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream file(wanted.folder / name, std::ios::binary);
-    file << text;
-    file.flush();
-    if (!file)
-      throw cannot_check(fmt::format("error: {}: cannot be written: is the folder writable and the disk not full?",
-                                     (wanted.folder / name).string()));
-  }
+  void write(const std::string& name, const std::string& text) const { write_file(wanted.folder / name, text); }
 
   // ---- programs of this machine ---------------------------------------------------------------------------------
   struct native {
@@ -138,10 +132,8 @@ struct checker::state {
       const bool needed = one.compiler == std::string(EPILINE_CLANG) && wanted.stimulus.empty();
       if (!wants(one.level) && !needed && !(one.compiler == std::string(EPILINE_CLANG) && !wants("native-gcc")))
         continue;
-      if (!find_program(one.compiler)) {
-        one.built.problem = fmt::format("{} is not installed (Debian package {})", one.compiler, one.package);
-        continue;
-      }
+      one.built.problem = missing_program(one.compiler, one.package);
+      if (!one.built.problem.empty()) continue;
       const bool is_clang = one.compiler == std::string(EPILINE_CLANG);
       one.built = build_native(top, network, wanted.folder, is_clang ? "native_clang" : "native_gcc", one.compiler,
                                is_clang ? sanitizer_options() : std::vector<std::string>{});
@@ -301,8 +293,7 @@ struct checker::state {
   /// A network as a level has it: of a fault that is planted, one line of its text differs.
   dataflow::network with_fault(const std::string& level, const dataflow::network& n) {
     if (!planted || planted->level != level) return n;
-    return dataflow::parse_network(
-        text_of(level, dataflow::is_single(n) ? dataflow::print(n.processes.front()) : dataflow::print(n)));
+    return dataflow::parse_network(text_of(level, dataflow::print_design(n)));
   }
 
   void run_built_graph() {
@@ -419,7 +410,7 @@ checker::checker(options wanted, frontend::source_options source, std::ostream& 
       throw std::invalid_argument(fmt::format("--levels {}: there is no such level: there are {}", level, names));
     }
     std::string lacks;
-    if (level == "native-gcc" && !find_program("g++")) lacks = "g++ is not installed (Debian package g++)";
+    if (level == "native-gcc") lacks = missing_program("g++", "g++");
     if (level == "rtl-icarus") lacks = missing_for(simulator::icarus);
     if (level == "rtl-verilator") lacks = missing_for(simulator::verilator);
     if (level == "netlist") lacks = missing_for_synthesis() + missing_for(simulator::verilator);
@@ -464,7 +455,7 @@ void checker::see_verilog(const dataflow::network& n, const std::string& verilog
   s.clocks = s.iterations * interval;
   if (wants("passes") && !s.pass_failed) s.equal("passes", fmt::format("after each of {}", s.passes));
   if (wants("text")) {
-    const std::string text = dataflow::is_single(n) ? dataflow::print(n.processes.front()) : dataflow::print(n);
+    const std::string text = dataflow::print_design(n);
     try {
       const graph_verdict found =
           run_graph(dataflow::parse_network(s.text_of("text", text)), s.at_clocks, 2 * s.iterations + 1000);

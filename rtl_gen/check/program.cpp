@@ -40,6 +40,10 @@ std::optional<std::string> find_program(const std::string& name) {
   return *found;
 }
 
+std::string missing_program(const std::string& name, const std::string& package) {
+  return find_program(name) ? "" : fmt::format("{} is not installed (Debian package {})", name, package);
+}
+
 program_end run_program(const std::vector<std::string>& words, const std::filesystem::path& folder,
                         const std::string& log, unsigned seconds) {
   std::vector<char*> arguments;

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <stdexcept>
 
 #include "check/bench.hpp"
+#include "check/files.hpp"
 #include "check/program.hpp"
 
 namespace epiline::check {
@@ -15,18 +15,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr unsigned most_seconds = 600;
-
-void write(const fs::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.flush();
-  if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
-}
-
-std::string missing(const std::string& program, const std::string& package) {
-  if (find_program(program)) return {};
-  return fmt::format("{} is not installed (Debian package {})", program, package);
-}
 
 constexpr const char* verilator_main = R"(// Written by epiline-hls --check.
 #include <cstdlib>
@@ -61,7 +49,7 @@ std::vector<std::string> build(const simulation_request& request, const std::str
     words = {*find_program("iverilog"), "-g2005", "-s", "epiline_check_clock", "-o", request.name + ".vvp", bench};
     run = {*find_program("vvp"), "-n", request.name + ".vvp"};
   } else {
-    write(request.folder / (request.name + "_main.cpp"), verilator_main);
+    write_file(request.folder / (request.name + "_main.cpp"), verilator_main);
     fs::remove_all(request.folder / (request.name + ".model"));
     // Verilator's own library is the same for all.
     const std::string cache = find_program("ccache") ? " OBJCACHE=ccache" : "";
@@ -109,15 +97,15 @@ std::vector<std::string> build(const simulation_request& request, const std::str
 }  // namespace
 
 std::string missing_for(simulator which) {
-  if (which == simulator::verilator) return missing("verilator", "verilator");
-  return missing("iverilog", "iverilog");
+  if (which == simulator::verilator) return missing_program("verilator", "verilator");
+  return missing_program("iverilog", "iverilog");
 }
 
 simulation_verdict simulate(const simulation_request& request, const dataflow::network& n, const reference& wanted) {
   simulation_verdict verdict;
   try {
     const std::string bench = request.name + "_bench.v";
-    write(request.folder / bench, bench_text(n, wanted, request.patience));
+    write_file(request.folder / bench, bench_text(n, wanted, request.patience));
     write_inputs(request.folder, n, wanted);
     std::vector<std::string> run = build(request, bench);
     for (unsigned pattern = 0; pattern < bench_patterns; ++pattern) {
@@ -151,9 +139,9 @@ simulation_verdict simulate(const simulation_request& request, const dataflow::n
 }
 
 std::string missing_for_synthesis() {
-  if (const std::string lacks = missing("yosys", "yosys"); !lacks.empty()) return lacks;
+  if (const std::string lacks = missing_program("yosys", "yosys"); !lacks.empty()) return lacks;
   if (!fs::exists(EPILINE_SYNTHESIS_SCRIPT)) return fmt::format("{} is not there", EPILINE_SYNTHESIS_SCRIPT);
-  return missing("python3", "python3");
+  return missing_program("python3", "python3");
 }
 
 std::string synthesize(const fs::path& folder, const std::string& verilog, const std::string& top,

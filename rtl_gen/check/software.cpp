@@ -1,13 +1,14 @@
 #include "check/software.hpp"
 
 #include <fmt/format.h>
-#include <llvm/ADT/StringRef.h>
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
+#include "check/files.hpp"
 #include "check/program.hpp"
 
 namespace epiline::check {
@@ -20,13 +21,6 @@ constexpr unsigned build_seconds = 300;
 constexpr unsigned run_seconds = 120;
 /// Tokens of an output, beyond those wanted, after which a run without end is stopped.
 constexpr std::size_t surplus_tokens = 100;
-
-void write(const fs::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.flush();
-  if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
-}
 
 /// Where a parameter of the top is among the network's ports.
 struct parameter_place {
@@ -100,13 +94,13 @@ program build(const std::vector<std::string>& words, const fs::path& folder, con
 
 program build_ir(const fs::path& folder, const std::string& name, const std::string& main,
                  const std::vector<std::string>& texts) {
-  write(folder / (name + ".cpp"), main);
+  write_file(folder / (name + ".cpp"), main);
   // Without optimisation: it is these instructions that are to be run.
   std::vector<std::string> words{*find_program(EPILINE_CLANG), "-std=c++17", "-w", "-O0", "-I",
                                  EPILINE_CHECK_INCLUDES,       name + ".cpp"};
   for (std::size_t i = 0; i < texts.size(); ++i) {
     const std::string file = fmt::format("{}_{}.ll", name, i);
-    write(folder / file, texts[i]);
+    write_file(folder / file, texts[i]);
     words.push_back(file);
   }
   words.insert(words.end(), {"-o", name});
@@ -148,8 +142,9 @@ answer read_answer(const fs::path& file, const dataflow::network& n) {
     words >> what;
     if (what == "end") {
       words >> text;
-      result.end = text == "boundary" ? ending::boundary : text == "blocked" ? ending::blocked : ending::endless;
-      is_complete = true;
+      const auto found = std::ranges::find(ending_names, text);
+      is_complete = found != std::end(ending_names);
+      result.end = static_cast<ending>(found - std::begin(ending_names));
     } else if (what == "calls") {
       result.calls = number(words);
     } else {
@@ -159,11 +154,11 @@ answer read_answer(const fs::path& file, const dataflow::network& n) {
       if (what == "done") result.done[port] = number(words);
       if (what != "out" && what != "in") continue;
       words >> text;
-      llvm::APInt value;
-      (void)llvm::StringRef(text).getAsInteger(16, value);
-      if (value.getActiveBits() > n.ports[port].width)
-        throw std::runtime_error(fmt::format("a token of port '{}' has too many bits: {}", n.ports[port].name, text));
-      (what == "out" ? result.outputs : result.made_up)[port].push_back(value.zextOrTrunc(n.ports[port].width));
+      std::optional<llvm::APInt> token = from_hexadecimal(text, n.ports[port].width);
+      if (!token)
+        throw std::runtime_error(
+            fmt::format("'{}' is no token of the {} bits of port '{}'", text, n.ports[port].width, n.ports[port].name));
+      (what == "out" ? result.outputs : result.made_up)[port].push_back(std::move(*token));
       if (what == "out") result.lines[port].push_back(static_cast<unsigned>(number(words)));
     }
   }
@@ -199,7 +194,7 @@ program build_native(const top_parts& top, const dataflow::network& n, const fs:
               fmt::format("parameter '{}' has bit-fields, or a type without members that are known: the tokens of "
                           "a native run cannot be made",
                           top.parameters.at(static_cast<unsigned>(i)))};
-  write(folder / (name + ".cpp"), native_source(top, n));
+  write_file(folder / (name + ".cpp"), native_source(top, n));
   // Tokens are made of all members, private ones too.
   std::vector<std::string> words{*find_program(compiler), "-std=c++17", "-w", "-O0", "-fno-access-control"};
   words.insert(words.end(), options.begin(), options.end());
@@ -255,7 +250,7 @@ answer run(const program& what, const dataflow::network& n, const std::vector<to
   for (dataflow::port_id id = 0; id < n.ports.size(); ++id)
     for (const llvm::APInt& token : inputs[id]) text += fmt::format("{} {}\n", id, to_hexadecimal(token));
   const std::string name = what.file.filename().string() + ".in";
-  write(what.file.parent_path() / name, text);
+  write_file(what.file.parent_path() / name, text);
   return run_words(what, n, {name}, problem);
 }
 

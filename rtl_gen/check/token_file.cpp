@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -94,11 +95,10 @@ class reader {
       (void)digits.consume_front("0x");
       if (digits.empty() || digits.find_first_not_of("0123456789abcdefABCDEF") != llvm::StringRef::npos)
         fail(fmt::format("'{}' is not a hexadecimal number", words[i + 1]));
-      llvm::APInt value;
-      (void)digits.getAsInteger(16, value);
-      if (value.getActiveBits() > fields_[i]->width)
+      const std::optional<llvm::APInt> value = from_hexadecimal(digits, fields_[i]->width);
+      if (!value)
         fail(fmt::format("'{}' has more than the {} bits of {}", words[i + 1], fields_[i]->width, fields_[i]->signal));
-      token.insertBits(value.zextOrTrunc(fields_[i]->width), fields_[i]->offset);
+      token.insertBits(*value, fields_[i]->offset);
     }
     result_.tokens[port_].push_back(token);
   }

@@ -104,6 +104,8 @@ std::string print(const network& n) {
   return text;
 }
 
+std::string print_design(const network& n) { return is_single(n) ? print(n.processes.front()) : print(n); }
+
 network parse_network(std::string_view text) { return network_parser(text).run(); }
 
 }  // namespace epiline::dataflow

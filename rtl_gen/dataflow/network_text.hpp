@@ -24,6 +24,9 @@ namespace epiline::dataflow {
 /// The text form. `n` must keep every rule of network.hpp.
 [[nodiscard]] std::string print(const network& n);
 
+/// The shortest text form: of a network that is a single graph that graph's.
+[[nodiscard]] std::string print_design(const network& n);
+
 /// The network a text describes; that of one process if the text is a graph's. Throws text_error for anything else.
 [[nodiscard]] network parse_network(std::string_view text);
 

@@ -197,8 +197,8 @@ class writer {
   /// After a reset nothing is issued until what was in flight has left the pipeline, state has its initial values and
   /// what is computed from settled values is right: then valid bits need no reset, which would go to every stage.
   int reset_clocks() const { return std::max(plan_.last_valid, settle_clocks()) + 1 + after_state_reset; }
-  static constexpr int after_state_reset =
-      4;  // clocks from the end of `resetting`, of which two rows of copies take two
+  /// Clocks from the end of `resetting` to the first issue, of which two rows of copies take two.
+  static constexpr int after_state_reset = 4;
   unsigned hold_bits() const { return bits_for(std::max(most_hold(), reset_clocks()) + 1); }
   [[nodiscard]] std::optional<node_id> need_register(dataflow::port_id port) const;
 

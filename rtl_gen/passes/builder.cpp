@@ -36,6 +36,14 @@ bool is_shareable(operation kind) {
 
 builder::builder(graph& target) : g_(target), index_(1024, none), writes_so_far_(target.memories.size(), 0) {}
 
+node_id builder::register_value(register_id id) {
+  node n;
+  n.kind = operation::register_value;
+  n.width = g_.registers[id].width;
+  n.object = id;
+  return make(std::move(n));
+}
+
 node_id builder::constant(const llvm::APInt& value) {
   node n;
   n.kind = operation::constant;

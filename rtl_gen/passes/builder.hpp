@@ -30,6 +30,8 @@ class builder {
   node_id make(node n);
   node_id make(operation kind, unsigned width, std::vector<node_id> operands, unsigned low = 0);
 
+  /// The value of a register of the target.
+  node_id register_value(register_id id);
   node_id constant(const llvm::APInt& value);
   node_id constant(unsigned width, std::uint64_t value);
   node_id bit(bool value) { return constant(1, value ? 1 : 0); }

@@ -76,7 +76,7 @@ struct foreseen {
 
 }  // namespace
 
-void foresee_reads(graph& g) {
+bool foresee_reads(graph& g) {
   std::map<node_id, foreseen> predicates;
   for (const node& n : g.nodes) {
     if (n.kind != operation::read || predicates.contains(n.operands[0])) continue;
@@ -94,18 +94,14 @@ void foresee_reads(graph& g) {
     predicates[n.operands[0]] = {std::move(*gates), static_cast<register_id>(g.registers.size())};
     g.registers.push_back(std::move(r));
   }
-  if (predicates.empty()) return;
+  if (predicates.empty()) return false;
   std::vector<node_id> moved(g.nodes.size(), none);
   rebuild(
       g,
       [&](builder& b, node n, node_id id) {
         if (n.kind == operation::read) {
           if (const auto found = predicates.find(g.nodes[id].operands[0]); found != predicates.end()) {
-            node needed;
-            needed.kind = operation::register_value;
-            needed.width = 1;
-            needed.object = found->second.state;
-            n.operands[0] = b.make(std::move(needed));
+            n.operands[0] = b.register_value(found->second.state);
           }
         }
         return moved[id] = b.make(std::move(n));
@@ -121,6 +117,7 @@ void foresee_reads(graph& g) {
           b.target().registers[p.state].enable = b.bit(true);
         }
       });
+  return true;
 }
 
 }  // namespace epiline::passes

@@ -9,7 +9,7 @@ namespace epiline::passes {
 /// on that decision, so no gate is to stand between the state and it.
 ///
 /// Done where the predicate depends on registers alone, all of them with known values after a reset; elsewhere nothing
-/// changes. A predicate that is a register already stays as it is.
-void foresee_reads(dataflow::graph& g);
+/// changes. A predicate that is a register already stays as it is. Returns whether anything changed.
+bool foresee_reads(dataflow::graph& g);
 
 }  // namespace epiline::passes

@@ -118,13 +118,6 @@ void forward_memories(graph& g, unsigned writes_kept) {
       kept[m].push_back({enable, address, add("data", g.memories[m].width, false)});
     }
   }
-  const auto value_of = [](builder& b, register_id r) {
-    node n;
-    n.kind = operation::register_value;
-    n.width = b.target().registers[r].width;
-    n.object = r;
-    return b.make(std::move(n));
-  };
   std::vector<node> met(g.memories.size());
   rebuild(
       g,
@@ -137,8 +130,9 @@ void forward_memories(graph& g, unsigned writes_kept) {
         const node_id wanted = b.bit_and(n.operands[1], there);
         node_id word = b.make(std::move(n));
         for (auto k = kept[m].rbegin(); k != kept[m].rend(); ++k) {  // younger writes win
-          const node_id hit = b.bit_and(value_of(b, k->enable), same_address(b, value_of(b, k->address), address));
-          word = b.select(b.bit_and(wanted, hit), value_of(b, k->data), word);
+          const node_id hit =
+              b.bit_and(b.register_value(k->enable), same_address(b, b.register_value(k->address), address));
+          word = b.select(b.bit_and(wanted, hit), b.register_value(k->data), word);
         }
         return word;
       },
@@ -151,9 +145,9 @@ void forward_memories(graph& g, unsigned writes_kept) {
         for (memory_id m = 0; m < kept.size(); ++m)
           for (std::size_t i = 0; i < kept[m].size(); ++i) {
             const node& write = met[m];
-            update(kept[m][i].enable, i == 0 ? write.operands[2] : value_of(b, kept[m][i - 1].enable));
-            update(kept[m][i].address, i == 0 ? write.operands[0] : value_of(b, kept[m][i - 1].address));
-            update(kept[m][i].data, i == 0 ? write.operands[1] : value_of(b, kept[m][i - 1].data));
+            update(kept[m][i].enable, i == 0 ? write.operands[2] : b.register_value(kept[m][i - 1].enable));
+            update(kept[m][i].address, i == 0 ? write.operands[0] : b.register_value(kept[m][i - 1].address));
+            update(kept[m][i].data, i == 0 ? write.operands[1] : b.register_value(kept[m][i - 1].data));
           }
       });
 }

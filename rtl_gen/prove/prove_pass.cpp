@@ -1,7 +1,7 @@
 #include "prove/prove_pass.hpp"
 
 #include <fmt/format.h>
-#include <llvm/ADT/SmallString.h>
+#include <llvm/ADT/StringExtras.h>
 #include <z3++.h>
 
 #include <algorithm>
@@ -248,11 +248,7 @@ class prover {
     proof_.difference = std::move(example);
   }
 
-  static std::string in_hexadecimal(const APInt& value) {
-    llvm::SmallString<64> text;
-    value.toString(text, 16, false);
-    return "0x" + std::string(text.str());
-  }
+  static std::string in_hexadecimal(const APInt& value) { return "0x" + llvm::toString(value, 16, false); }
 
   void describe_start(const obligation& differing, counterexample& example) const {
     cone relevant;

@@ -19,6 +19,8 @@
 #include <string>
 #include <vector>
 
+#include "check_ending.hpp"
+
 namespace epiline::check {
 
 /// A bit pattern, the lowest bit first.
@@ -72,12 +74,6 @@ inline std::string to_hexadecimal(const token& value) {
   return text.empty() ? "0" : text;
 }
 
-enum class ending {
-  boundary,  // there is no further call
-  blocked,   // a call lacks a token
-  endless,   // it would go on for ever without further input
-};
-
 /// What goes in and what comes out, by port.
 class exchange {
  public:
@@ -116,7 +112,7 @@ class exchange {
     for (const auto& [port, count] : done_)
       lines_ += "done " + std::to_string(port) + ' ' + std::to_string(count) + '\n';
     lines_ += "calls " + std::to_string(calls) + '\n';
-    lines_ += why == ending::boundary ? "end boundary\n" : why == ending::blocked ? "end blocked\n" : "end endless\n";
+    lines_ += std::string("end ") + ending_names[static_cast<int>(why)] + '\n';
     std::FILE* const out = std::fopen(file, "w");
     if (out == nullptr || std::fwrite(lines_.data(), 1, lines_.size(), out) != lines_.size() || std::fclose(out) != 0)
       stop("cannot write", file);
