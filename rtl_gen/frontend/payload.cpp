@@ -4,6 +4,7 @@
 #include <llvm/BinaryFormat/Dwarf.h>
 #include <llvm/IR/DebugInfo.h>
 
+#include <algorithm>
 #include <array>
 
 namespace epiline::frontend {
@@ -56,7 +57,7 @@ bool is_padding_byte(const llvm::StructType& structure, unsigned index, const ll
 struct collector {
   const source_place& place;
   const llvm::DataLayout& layout;
-  const llvm::Module* module;  // whose debug information tells a padding byte from a member; may be null
+  const llvm::Module& module;  // whose debug information tells a padding byte from a member
   std::vector<leaf> leaves;
   std::vector<unsigned> path;
   unsigned axis_field = 0;
@@ -80,7 +81,7 @@ struct collector {
         llvm::Type* const member = structure->getElementType(i);
         if (const unsigned tag = tag_of(member, 32); tag != 0)
           axis_field = tag;
-        else if (!is_padding(*structure, i, layout) && (module == nullptr || !is_padding_byte(*structure, i, *module)))
+        else if (!is_padding(*structure, i, layout) && !is_padding_byte(*structure, i, module))
           visit_member(member, i);
       }
       axis_field = outside;
@@ -124,6 +125,21 @@ llvm::StringRef member_at(const llvm::DICompositeType& type, std::uint64_t bit) 
   return "";
 }
 
+/// The C++ types that a struct may stand for: of its name and size.
+std::vector<const llvm::DICompositeType*> source_types(llvm::StructType& structure, const llvm::Module& module) {
+  std::vector<const llvm::DICompositeType*> found;
+  llvm::DebugInfoFinder finder;
+  finder.processModule(module);
+  for (const llvm::DIType* described : finder.types()) {
+    const auto* composite = llvm::dyn_cast<llvm::DICompositeType>(described);
+    if (composite != nullptr && !composite->isForwardDecl() &&
+        short_name(composite->getName()) == short_name(structure.getName()) &&
+        composite->getSizeInBits() == module.getDataLayout().getTypeAllocSizeInBits(&structure))
+      found.push_back(composite);
+  }
+  return found;
+}
+
 /// clang writes a gap of one byte as an i8, as it does a `char` or a `bool`: only the debug information tells them
 /// apart.
 bool is_padding_byte(const llvm::StructType& structure, unsigned index, const llvm::Module& module) {
@@ -133,19 +149,10 @@ bool is_padding_byte(const llvm::StructType& structure, unsigned index, const ll
     return false;
   auto* type = const_cast<llvm::StructType*>(&structure);
   const std::uint64_t bit = 8 * layout.getStructLayout(type)->getElementOffset(index);
-  llvm::DebugInfoFinder finder;
-  finder.processModule(module);
-  bool is_known = false;
-  for (const llvm::DIType* described : finder.types()) {
-    const auto* composite = llvm::dyn_cast<llvm::DICompositeType>(described);
-    if (composite == nullptr || composite->isForwardDecl() ||
-        short_name(composite->getName()) != short_name(structure.getName()) ||
-        composite->getSizeInBits() != layout.getTypeAllocSizeInBits(type))
-      continue;
-    if (!member_at(*composite, bit).empty()) return false;
-    is_known = true;
-  }
-  return is_known;
+  const std::vector<const llvm::DICompositeType*> described = source_types(*type, module);
+  return !described.empty() && std::none_of(described.begin(), described.end(), [&](const llvm::DICompositeType* one) {
+    return !member_at(*one, bit).empty();
+  });
 }
 
 llvm::Value* address_of(llvm::IRBuilderBase& builder, llvm::Value* pointer, llvm::Type* type, const leaf& member) {
@@ -190,13 +197,7 @@ void refuse_members_like_padding(llvm::Type* type, const llvm::Module& module, c
   for (unsigned i = 0; i < structure->getNumElements(); ++i) {
     refuse_members_like_padding(structure->getElementType(i), module, place);
     if (!structure->hasName() || !is_padding(*structure, i, layout)) continue;
-    llvm::DebugInfoFinder finder;
-    finder.processModule(module);
-    for (const llvm::DIType* described : finder.types()) {
-      const auto* composite = llvm::dyn_cast<llvm::DICompositeType>(described);
-      if (composite == nullptr || short_name(composite->getName()) != short_name(structure->getName()) ||
-          composite->getSizeInBits() != layout.getTypeAllocSizeInBits(structure))
-        continue;
+    for (const llvm::DICompositeType* composite : source_types(*structure, module)) {
       const llvm::StringRef member = member_at(*composite, 8 * layout.getStructLayout(structure)->getElementOffset(i));
       if (!member.empty())
         refuse(place, fmt::format("the bytes '{}' of struct '{}' stand where padding would be and cannot be told from "
@@ -206,14 +207,8 @@ void refuse_members_like_padding(llvm::Type* type, const llvm::Module& module, c
   }
 }
 
-std::vector<leaf> leaves_of(llvm::Type* type, const llvm::DataLayout& layout, const source_place& place) {
-  collector all{place, layout, nullptr, {}, {}, 0};
-  all.visit(type);
-  return all.leaves;
-}
-
 std::vector<leaf> leaves_of(llvm::Type* type, const llvm::Module& module, const source_place& place) {
-  collector all{place, module.getDataLayout(), &module, {}, {}, 0};
+  collector all{place, module.getDataLayout(), module, {}, {}, 0};
   all.visit(type);
   return all.leaves;
 }

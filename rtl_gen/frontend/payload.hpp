@@ -35,9 +35,7 @@ bool is_arbitrary_precision(llvm::Type* type, unsigned& width, bool& is_signed);
 void refuse_members_like_padding(llvm::Type* type, const llvm::Module& module, const source_place& place);
 
 /// The leaves of a payload type in order. Refuses (at `place`) floating point, pointers and other foreign types.
-[[nodiscard]] std::vector<leaf> leaves_of(llvm::Type* type, const llvm::DataLayout& layout, const source_place& place);
-
-/// The same with the module's debug information, without which padding of one byte is taken for a member.
+/// What is padding is told by the module's debug information where the type alone does not tell.
 [[nodiscard]] std::vector<leaf> leaves_of(llvm::Type* type, const llvm::Module& module, const source_place& place);
 
 /// The RTL fields of a port that carries these leaves: tdata alone, or one group an AXI4-Stream member.

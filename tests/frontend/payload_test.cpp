@@ -52,7 +52,7 @@ TEST(arbitrary_precision, width_and_sign_are_in_the_tag) {
 
 TEST(leaves, come_in_the_order_of_the_members_with_paths_to_them) {
   small_module module(with("%pair = type { i16, %s5 }\n%all = type { %u17, [2 x %pair], i1 }\n", "%all"));
-  const std::vector<leaf> leaves = leaves_of(module.type("all"), module.layout(), {});
+  const std::vector<leaf> leaves = leaves_of(module.type("all"), module.module(), {});
   EXPECT_THAT(text_of(leaves),
               ElementsAre(".0.0 u17", ".1.0.0 u16", ".1.0.1.0 s5", ".1.1.0 u16", ".1.1.1.0 s5", ".2 u1"));
   EXPECT_EQ(width_of(leaves), 17u + 2 * (16 + 5) + 1);
@@ -61,15 +61,15 @@ TEST(leaves, come_in_the_order_of_the_members_with_paths_to_them) {
 
 TEST(leaves, padding_takes_no_part) {
   small_module module(with("%all = type <{ i8, [3 x i8], i32, %s5, [3 x i8] }>\n", "%all"));
-  EXPECT_THAT(text_of(leaves_of(module.type("all"), module.layout(), {})), ElementsAre(".0 u8", ".2 u32", ".3.0 s5"));
+  EXPECT_THAT(text_of(leaves_of(module.type("all"), module.module(), {})), ElementsAre(".0 u8", ".2 u32", ".3.0 s5"));
 }
 
 TEST(leaves, what_is_not_built_of_integers_is_refused_at_its_place) {
   small_module module(
       with("%number = type { i8, double }\n%link = type { ptr }\n%all = type { %number, %link }\n", "%all"));
-  EXPECT_THAT(refusal_of([&] { static_cast<void>(leaves_of(module.type("number"), module.layout(), {"top.cpp", 7})); }),
+  EXPECT_THAT(refusal_of([&] { static_cast<void>(leaves_of(module.type("number"), module.module(), {"top.cpp", 7})); }),
               HasSubstr("top.cpp:7: error: floating point"));
-  EXPECT_THAT(refusal_of([&] { static_cast<void>(leaves_of(module.type("link"), module.layout(), {"top.cpp", 8})); }),
+  EXPECT_THAT(refusal_of([&] { static_cast<void>(leaves_of(module.type("link"), module.module(), {"top.cpp", 8})); }),
               HasSubstr("top.cpp:8: error: a stream or parameter of pointers"));
 }
 
@@ -147,7 +147,7 @@ TEST(fields, one_group_for_each_axi_stream_member) {
 %beat = type { %data, { [0 x [2 x i32]], i8 }, { [0 x [4 x i32]], %s5 }, { [0 x [5 x i32]], i1 } }
 )",
                            "%beat"));
-  const std::vector<dataflow::field> fields = fields_of(leaves_of(module.type("beat"), module.layout(), {}));
+  const std::vector<dataflow::field> fields = fields_of(leaves_of(module.type("beat"), module.module(), {}));
   ASSERT_EQ(fields.size(), 4u);
   const auto expect = [&](std::size_t index, const char* signal, unsigned width, unsigned offset, bool is_signed) {
     EXPECT_EQ(fields[index].signal, signal);
