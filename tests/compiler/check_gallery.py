@@ -13,15 +13,9 @@ import shutil
 import subprocess
 import sys
 
+from kernel_options import options_of
+
 HERE = pathlib.Path(__file__).resolve().parent
-
-
-def options_of(source):
-    """The options that a kernel asks for in a line `// epiline-hls: ...`."""
-    for line in source.read_text(encoding="utf-8").splitlines():
-        if line.startswith("// epiline-hls: "):
-            return line.split()[2:]
-    return []
 
 
 def main():

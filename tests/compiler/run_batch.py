@@ -32,6 +32,7 @@ sys.path.insert(0, str(ROOT / "tb" / "cosim"))
 
 import make_model  # noqa: E402
 import random_program  # noqa: E402
+from kernel_options import options_of  # noqa: E402
 
 COMPILER_SECONDS = 60
 NATIVE_SECONDS = 120
@@ -167,11 +168,7 @@ class Batch:
     # ---- the compiler -------------------------------------------------------------------------------------------
     def compile_program(self, name):
         source = self.sources[name]
-        options = []
-        for line in source.read_text(encoding="utf-8").splitlines():
-            match = re.match(r"// epiline-hls: (.*)", line)
-            if match:
-                options = match.group(1).split()
+        options = options_of(source)
         folder = self.work / "rtl" / name
         shutil.rmtree(folder, ignore_errors=True)
         schedule = []

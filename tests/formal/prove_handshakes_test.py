@@ -64,6 +64,11 @@ class handshakes(unittest.TestCase):
                            capture_output=True)
             cls.verilog[name] = (pathlib.Path(place.name) / f"{name}.v").read_text(encoding="utf-8")
 
+    def with_fault(self, name, pattern, replacement):
+        verilog, count = re.subn(pattern, replacement, self.verilog[name])
+        self.assertEqual(count, 1)
+        return verilog
+
     def prove_fifo(self, verilog, depth):
         self.assertIn("module epiline_fifo_distributed", verilog)
         pointer = (depth - 1).bit_length()
@@ -79,8 +84,7 @@ class handshakes(unittest.TestCase):
     def test_a_faulty_fifo_does_not(self):
         for fault, pattern, replacement in fifo_faults:
             with self.subTest(fault):
-                verilog, count = re.subn(pattern, replacement, self.verilog["dataflow_gain"])
-                self.assertEqual(count, 1)
+                verilog = self.with_fault("dataflow_gain", pattern, replacement)
                 verdict, output = self.prove_fifo(verilog, 3)
                 self.assertEqual(verdict, "refuted", output[-3000:])
 
@@ -95,8 +99,7 @@ class handshakes(unittest.TestCase):
     def test_a_faulty_module_does_not(self):
         for fault, pattern, replacement in module_faults:
             with self.subTest(fault):
-                verilog, count = re.subn(pattern, replacement, self.verilog["prefix_sum"])
-                self.assertEqual(count, 1)
+                verilog = self.with_fault("prefix_sum", pattern, replacement)
                 verdict, output = prove(with_handshake_properties(verilog, "prefix_sum")[0], "prefix_sum", cut="*_data")
                 self.assertIn(verdict, ("refuted", "not inductive"), output[-3000:])
 

@@ -11,19 +11,21 @@ import argparse
 import concurrent.futures
 import json
 import pathlib
-import re
 import subprocess
 import sys
 
 here = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(here.parent / "compiler"))
+
+from kernel_options import options_of  # noqa: E402
+
 verdicts = ["proved", "timed out", "refuted", "not covered"]
 
 
 def prove(compiler, source, work, seconds):
     """What a run of the compiler said, and its proof.json, or None."""
     name = source.stem
-    options = re.findall(r"(?m)^// epiline-hls: (.*)", source.read_text(encoding="utf-8"))
-    options = options[-1].split() if options else []
+    options = options_of(source)
     if "--ii" not in options:
         options += ["--ii", "auto"]
     folder = work / name
