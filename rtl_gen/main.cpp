@@ -48,6 +48,7 @@ struct command_line {
   std::uint64_t seed = 1;
   std::string output;
   std::string depfile;
+  std::string device_delays;         // a file; empty: those that are built in
   std::vector<std::string> explain;  // a signal, and the folder of the Verilog it stands in; empty: compile
   std::string crash;
   double prove_seconds = 10;  // for a pass
@@ -195,6 +196,14 @@ std::map<std::string, std::string> read_sources(const dataflow::network& network
   return sources;
 }
 
+/// Proves foresee_reads, which is tried while scheduling, on a graph as the pipeline leaves it.
+void prove_foreseen_reads(dataflow::graph graph, prove::session& proofs, bool with_fault) {
+  passes::number_objects(graph);
+  dataflow::graph foreseen = graph;
+  passes::foresee_reads(foreseen);
+  proofs.pass_ran(graph.name, "foresee_reads", graph, with_fault ? prove::with_fault(foreseen) : foreseen);
+}
+
 /// Writes proof.json, whatever becomes of the rest; nothing else is written when a pass was refuted.
 void write_proofs(const prove::session& proofs, output_folder& output) {
   output.write("proof.json", proofs.to_json().dump(2) + "\n");
@@ -253,10 +262,23 @@ void check_top_name(const std::string& top) {
   }
 }
 
+/// The delays in which the clock is predicted.
+std::optional<emit::device_delays> find_delays(const command_line& given) {
+  if (given.device_delays.empty()) return emit::fitted_delays(given.target);
+  std::ifstream in(given.device_delays, std::ios::binary);
+  if (!in) throw usage_error(fmt::format("--device-delays {}: cannot be read", given.device_delays));
+  try {
+    return emit::read_device_delays({std::istreambuf_iterator<char>(in), {}});
+  } catch (const std::invalid_argument& wrong) {
+    throw usage_error(fmt::format("--device-delays {}: {}", given.device_delays, wrong.what()));
+  }
+}
+
 void run(const command_line& given) {
   check_top_name(given.source.top);
   const double period = parse_clock(given.clock);
   const schedule::delay_model model(given.target);
+  const std::optional<emit::device_delays> delays = find_delays(given);
   output_folder output(given.output);
   stopwatch watch;
 
@@ -297,6 +319,7 @@ void run(const command_line& given) {
         if (checker) checker->see_pass(static_cast<std::size_t>(&graph - network.processes.data()), pass, after);
       };
     pass_logs.push_back(passes::to_json(passes::run_default_pipeline(graph, options)));
+    if (given.prove) prove_foreseen_reads(graph, proofs, given.prove_fault == "foresee_reads");
   }
   if (given.prove) write_proofs(proofs, output);
   if (const std::string violation = dataflow::find_violation(network); !violation.empty())
@@ -312,7 +335,7 @@ void run(const command_line& given) {
   const double schedule_seconds = watch.lap();
 
   const std::string& name = network.name;
-  const nlohmann::json report = emit::make_network_report(network, model, schedules, pass_logs, given.axi_lite);
+  const nlohmann::json report = emit::make_network_report(network, model, schedules, pass_logs, given.axi_lite, delays);
   const emit::verilog_text verilog = emit::emit_network(network, model, schedules, {.axi_lite = given.axi_lite});
   output.write(name + ".v", verilog.text);
   output.write(name + ".signals.json", emit::signals_text(verilog.modules));
@@ -410,6 +433,9 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--fault", given.check_options.fault)->group("");  // hidden: for the tests of --check
   app.add_option("--depfile", given.depfile, "write the files read, as a Makefile rule, for build systems");
+  app.add_option("--device-delays", given.device_delays,
+                 "file of delays (scripts/delay_fit.py) in which the clock after place and route is predicted; without "
+                 "it those built in for the target, if there are any");
   app.add_option("--crash", given.crash)->group("");  // hidden: for the tests of the crash report
   app.add_option("--explain", given.explain, "say which source lines a name in the Verilog of FOLDER comes from")
       ->type_name("SIGNAL FOLDER")

@@ -37,7 +37,7 @@ class runner {
       pass(g_);
       check(name);
     } else {
-      number_objects();
+      number_objects(g_);
       const graph given = g_;
       pass(g_);
       check(name);
@@ -64,12 +64,6 @@ class runner {
       throw std::logic_error(fmt::format("after {}: {}", where, what));
   }
 
-  void number_objects() {
-    for (dataflow::register_id r = 0; r < g_.registers.size(); ++r) g_.registers[r].origin = r;
-    for (dataflow::memory_id m = 0; m < g_.memories.size(); ++m) g_.memories[m].origins = {m};
-    for (std::uint32_t t = 0; t < g_.tables.size(); ++t) g_.tables[t].origin = t;
-  }
-
   graph& g_;
   const pipeline_options& options_;
 };
@@ -87,6 +81,12 @@ graph_size size_of(const graph& g) {
   for (const auto& r : g.registers) size.register_bits += r.width;
   for (const auto& m : g.memories) size.memory_bits += std::uint64_t{m.words} * m.width;
   return size;
+}
+
+void number_objects(graph& g) {
+  for (dataflow::register_id r = 0; r < g.registers.size(); ++r) g.registers[r].origin = r;
+  for (dataflow::memory_id m = 0; m < g.memories.size(); ++m) g.memories[m].origins = {m};
+  for (std::uint32_t t = 0; t < g.tables.size(); ++t) g.tables[t].origin = t;
 }
 
 std::vector<pass_report> run_default_pipeline(graph& g, const pipeline_options& options) {

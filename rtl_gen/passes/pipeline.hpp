@@ -34,6 +34,9 @@ struct pipeline_options {
   std::function<void(std::string_view pass, const dataflow::graph& before, const dataflow::graph& after)> observer = {};
 };
 
+/// Gives every register, memory and table its own number as `origin`, so that what a pass makes of it can be told.
+void number_objects(dataflow::graph& g);
+
 /// Runs all passes and tells what each one changed. The result outputs what `g` did (unspecified values count as 0, as
 /// in the interpreter) and has every memory's reads before its write. Throws memory_error (forward_memories.hpp) for
 /// memories that cannot be built, std::logic_error when `g` or what a pass made of it breaks a rule of graph.hpp.

@@ -34,7 +34,12 @@ relation::relation(z3::context& solver, const std::string& pass, const graph& be
     text_ = "all state that is left is equal";
   for (register_id r = 0; r < b_.registers.size(); ++r) equal_to_.push_back(r);
   if (pass_ == "merge_registers") equal_to_ = passes::first_equal_registers(b_);
-  find_kept_writes();
+  std::vector<register_id> made;
+  for (register_id r = 0; r < a_.registers.size(); ++r)
+    if (a_.registers[r].origin == none) made.push_back(r);
+  find_foreseen_reads(made);
+  if (!foreseen_.empty()) text_ += "; new registers say whether a token is read";
+  find_kept_writes(made);
   if (!kept_.empty()) text_ += "; registers hold the latest writes to memories";
   if (!not_covered_.empty()) return;
   choose_masks();
@@ -44,11 +49,36 @@ relation::relation(z3::context& solver, const std::string& pass, const graph& be
   start_after();
 }
 
+/// The registers a pass made of predicates of reads, where those hang on registers alone; they are taken out of `made`.
+void relation::find_foreseen_reads(std::vector<register_id>& made) {
+  const auto read_of = [](const graph& g, port_id port) -> node_id {
+    for (node_id id = 0; id < g.nodes.size(); ++id)
+      if (g.nodes[id].kind == operation::read && g.nodes[id].object == port) return id;
+    return none;
+  };
+  const auto hangs_on_registers = [this](node_id predicate) {
+    std::vector<node_id> pending = {predicate};
+    while (!pending.empty()) {
+      const node& n = b_.nodes[pending.back()];
+      pending.pop_back();
+      if (n.kind == operation::read || n.kind == operation::memory_read) return false;
+      pending.insert(pending.end(), n.operands.begin(), n.operands.end());
+    }
+    return true;
+  };
+  for (port_id p = 0; p < a_.ports.size(); ++p) {
+    const node_id then = read_of(b_, p), now = read_of(a_, p);
+    if (then == none || now == none) continue;
+    const node& predicate = a_.nodes[a_.nodes[now].operands[0]];
+    if (predicate.kind != operation::register_value || a_.registers[predicate.object].origin != none) continue;
+    if (!hangs_on_registers(b_.nodes[then].operands[0])) continue;
+    foreseen_.push_back({predicate.object, p, b_.nodes[then].operands[0]});
+    std::erase(made, predicate.object);
+  }
+}
+
 /// The registers a pass made for memories that may lag from now on: for each write, its enable, address and data.
-void relation::find_kept_writes() {
-  std::vector<register_id> made;
-  for (register_id r = 0; r < a_.registers.size(); ++r)
-    if (a_.registers[r].origin == none) made.push_back(r);
+void relation::find_kept_writes(const std::vector<register_id>& made) {
   std::size_t next = 0;
   for (memory_id m = 0; m < a_.memories.size(); ++m) {
     const memory& now = a_.memories[m];
@@ -149,6 +179,7 @@ void relation::start_after() {
             ? own
             : with_other_bits(resized(before_start_.registers[now.origin], now.width), register_masks_[r], own));
   }
+  start_foreseen_reads();
   after_start_.tokens = before_start_.tokens;
   for (const memory& m : a_.memories) after_start_.recent_writes.push_back(before_start_.recent_writes[m.origins[0]]);
   start_kept_writes();
@@ -158,6 +189,44 @@ void relation::start_after() {
     const table& now = a_.tables[t];
     return now.origin == none ? chosen_word(now, index) : resized(table_before(now.origin, index), now.width);
   };
+}
+
+void relation::start_foreseen_reads() {
+  if (foreseen_.empty()) return;
+  const iteration now(solver_, b_, before_start_);
+  for (const foreseen_read& f : foreseen_) after_start_.registers[f.state] = now.node(f.predicate);
+}
+
+z3::expr relation::where_registers_are(const z3::expr& term, const std::vector<z3::expr>& values) const {
+  z3::expr_vector from(solver_), to(solver_);
+  for (register_id r = 0; r < b_.registers.size(); ++r) {
+    from.push_back(before_start_.registers[r]);
+    to.push_back(values[r]);
+  }
+  return z3::expr(term).substitute(from, to);
+}
+
+/// What the registers say is true of the next iteration: of the state left behind, and of the state a reset leaves.
+std::vector<obligation> relation::foreseen_at_the_end(const iteration& before, const iteration& after) {
+  std::vector<obligation> result;
+  std::vector<z3::expr> left, reset;
+  for (register_id r = 0; r < b_.registers.size(); ++r) {
+    const register_state& then = b_.registers[r];
+    left.push_back(before.register_after(r));
+    // A register that no reset reaches may hold anything then.
+    reset.push_back(then.initial && then.resets ? constant_term(solver_, *then.initial) : before_start_.registers[r]);
+  }
+  for (const foreseen_read& f : foreseen_) {
+    const register_state& now = a_.registers[f.state];
+    const std::string subject =
+        fmt::format("register '{}': whether a token is read from '{}'", now.name, b_.ports[f.port].name);
+    result.push_back({subject + " next", now.where,
+                      where_registers_are(before.node(f.predicate), left) != after.register_after(f.state)});
+    result.push_back({subject + " after a reset", now.where,
+                      where_registers_are(before.node(f.predicate), reset) !=
+                          constant_term(solver_, now.initial.value_or(APInt(1, 0)))});
+  }
+  return result;
 }
 
 std::vector<word_write> relation::writes_kept_in(const kept_writes& kept,
@@ -260,6 +329,7 @@ std::vector<obligation> relation::at_the_end(const iteration& before, const iter
           masked(resized(before.register_after(now.origin), now.width), register_masks_[r]),
           masked(after.register_after(r), register_masks_[r]));
   }
+  for (obligation& o : foreseen_at_the_end(before, after)) result.push_back(std::move(o));
   for (memory_id m = 0; m < a_.memories.size(); ++m) {
     const memory& now = a_.memories[m];
     bool written = !after.writes(m).empty();

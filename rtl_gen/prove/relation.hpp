@@ -9,7 +9,8 @@
 //   - merge_registers: with registers found to be equal taken as one, which is an invariant of the graph before;
 //   - pack_memories: words side by side;
 //   - forward_memories: the writes kept in registers are the latest writes to the memory, and the memory's words are
-//     those they wrote; the memory itself may answer anything for a word written by one of them.
+//     those they wrote; the memory itself may answer anything for a word written by one of them;
+//   - foresee_reads: a new register says whether the iteration to come takes a token.
 // Registers and memories that are no longer there are not related to anything: nothing may depend on them.
 //
 // Besides, `facts` are what passes::known_values says about the state before the pass: bits and ranges.
@@ -84,13 +85,24 @@ class relation {
     std::vector<dataflow::register_id> enables, addresses, data;
   };
 
+  struct foreseen_read {
+    dataflow::register_id state;  // of the graph after: whether the iteration takes a token
+    dataflow::port_id port;       // from here
+    dataflow::node_id predicate;  // of the graph before
+  };
+
   /// Whether reads may miss the latest writes to a memory. Where the source promises its distance, they do not look.
   static bool lags(const dataflow::memory& m);
   void choose_masks();
   void start_before();
   void start_after();
-  void find_kept_writes();
+  void find_foreseen_reads(std::vector<dataflow::register_id>& made);
+  void start_foreseen_reads();
+  void find_kept_writes(const std::vector<dataflow::register_id>& made);
   void start_kept_writes();
+  /// A term of the registers at the start, where they have other values.
+  z3::expr where_registers_are(const z3::expr& term, const std::vector<z3::expr>& values) const;
+  std::vector<obligation> foreseen_at_the_end(const iteration& before, const iteration& after);
   void check_initial();
   void add_fact(const z3::expr& subject, const passes::value_set& set);
   z3::expr word_before(dataflow::memory_id m, const z3::expr& index, bool stale);
@@ -109,6 +121,7 @@ class relation {
   std::string not_covered_, misfit_, text_;
   std::vector<llvm::APInt> register_masks_, word_masks_;  // by object after the pass, of its width
   std::vector<dataflow::register_id> equal_to_;           // by register before
+  std::vector<foreseen_read> foreseen_;
   std::vector<kept_writes> kept_;
   std::vector<std::vector<word_write>> kept_start_;  // of each of kept_
   start_state before_start_, after_start_;

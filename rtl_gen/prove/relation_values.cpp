@@ -80,6 +80,9 @@ void relation::check_initial() {
       equal = now.values[i] == then.values[i].trunc(now.width);
     if (!equal) misfit_ = fmt::format("table '{}' has other words", now.name);
   }
+  for (const foreseen_read& f : foreseen_)
+    if (!a_.registers[f.state].initial || !a_.registers[f.state].resets)
+      misfit_ = fmt::format("register '{}' keeps what it foresaw when a reset comes", a_.registers[f.state].name);
   for (const kept_writes& kept : kept_)
     for (const register_id r : kept.enables)
       if (!a_.registers[r].initial || !a_.registers[r].initial->isZero() || !a_.registers[r].resets)
@@ -94,6 +97,14 @@ bool relation::holds(const concrete_end& before, const concrete_end& after) cons
     if (origin == none) continue;
     const APInt difference = before.registers[origin].trunc(a_.registers[r].width) ^ after.registers[r];
     if (difference.intersects(register_masks_[r])) return false;
+  }
+  if (!foreseen_.empty()) {
+    concrete_start next{before.registers, {}, {}};
+    next.words.resize(b_.memories.size());
+    for (const port& p : b_.ports) next.tokens.emplace_back(p.width, 0);
+    const concrete_end then = run_one_iteration(b_, next);
+    for (const foreseen_read& f : foreseen_)
+      if (then.accessed[f.port] != after.registers[f.state].isOne()) return false;
   }
   for (register_id r = 0; r < b_.registers.size(); ++r)
     if (before.registers[r] != before.registers[equal_to_[r]] || !contains(known_.of_register(r), before.registers[r]))

@@ -17,7 +17,7 @@ kernels = pathlib.Path(__file__).resolve().parents[1] / "compiler/kernels"
 # Small kernels: a recurrence, packets, a RAM that is read, modified and written, sums, conditions, processes.
 proved_kernels = ["arbiter", "histogram", "leaky_integrator", "packet_parser", "prefix_sum", "dataflow_gain"]
 passes = {"simplify", "order_memory_accesses", "merge_registers", "narrow_widths", "reduce_strength", "expand_arithmetic",
-          "balance_trees", "pack_memories", "forward_memories", "fold_magnitudes", "place_tables"}
+          "balance_trees", "pack_memories", "forward_memories", "fold_magnitudes", "place_tables", "foresee_reads"}
 
 
 def compile_kernel(name, folder, *options):

@@ -12,6 +12,7 @@
 #include "dataflow/random_graph.hpp"
 #include "dataflow/small_graph.hpp"
 #include "dataflow/text.hpp"
+#include "passes/foresee_reads.hpp"
 #include "passes/pipeline.hpp"
 #include "prove/fault.hpp"
 #include "prove/session.hpp"
@@ -223,6 +224,67 @@ TEST(prove_pass, looks_into_large_tables_when_it_must) {
     return s.g;
   };
   EXPECT_EQ(prove_pass("simplify", with_table(true), with_table(false)).result, verdict::proved);
+}
+
+/// Reads in the iterations in which `phase` is set and `odd` is not, which changes after each with a phase.
+struct foreseen_case {
+  small_graph s;
+  graph before, after;
+  explicit foreseen_case(bool resets = true) {
+    const register_id phase = s.add_register("phase", 1, 1), odd = s.add_register("odd", 1, 1);
+    s.g.registers[odd].resets = resets;
+    const node_id p = s.value_of(phase), o = s.value_of(odd);
+    const node_id token = s.read("x", 8, s.make(op::bit_and, 1, {p, s.make(op::bit_not, 1, {o})}));
+    s.update(phase, s.make(op::bit_not, 1, {p}));
+    s.update(odd, s.make(op::bit_not, 1, {o}), p);
+    s.write("y", token);
+    before = s.g;
+    passes::number_objects(before);
+    after = before;
+    passes::foresee_reads(after);
+  }
+};
+
+TEST(prove_pass, proves_that_reads_are_foreseen) {
+  const foreseen_case c;
+  ASSERT_EQ(c.after.registers.size(), 3u);
+  const proof p = prove_pass("foresee_reads", c.before, c.after);
+  EXPECT_EQ(p.result, verdict::proved) << describe(p);
+  EXPECT_EQ(p.relation, "all state that is left is equal; new registers say whether a token is read");
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    graph before = random_graph(seed, {30, true, false});
+    passes::number_objects(before);
+    graph after = before;
+    passes::foresee_reads(after);
+    const proof found = prove_pass("foresee_reads", before, after, {2});
+    EXPECT_NE(found.result, verdict::refuted) << "seed " << seed << '\n' << describe(found);
+  }
+}
+
+TEST(prove_pass, refutes_reads_foreseen_wrongly) {
+  const foreseen_case c;
+  const auto refuted = [&](const std::function<void(graph&)>& fault) {
+    graph wrong = c.after;
+    fault(wrong);
+    const proof p = prove_pass("foresee_reads", c.before, wrong);
+    return p.result == verdict::refuted ? p.difference->what : std::string(name_of(p.result));
+  };
+  const std::string subject = "register 'x_needed': whether a token is read from 'x'";
+  EXPECT_EQ(refuted([](graph& g) { g.registers[2].next = g.registers[2].enable; }), subject + " next");
+  EXPECT_EQ(refuted([](graph& g) { g.registers[2].initial->flipAllBits(); }), subject + " after a reset");
+  EXPECT_EQ(refuted([](graph& g) { g.registers[2].resets = false; }),
+            "register 'x_needed' keeps what it foresaw when a reset comes");
+  EXPECT_EQ(refuted([](graph& g) { g.registers[2].initial.reset(); }),
+            "register 'x_needed' keeps what it foresaw when a reset comes");
+
+  // What a reset leaves as it was may have any value then.
+  const foreseen_case kept(false);
+  ASSERT_EQ(kept.after.registers.size(), 2u) << "the pass itself leaves this alone";
+  graph before = c.before, after = c.after;
+  before.registers[1].resets = after.registers[1].resets = false;
+  const proof p = prove_pass("foresee_reads", before, after);
+  ASSERT_EQ(p.result, verdict::refuted) << describe(p);
+  EXPECT_EQ(p.difference->what, subject + " after a reset");
 }
 
 TEST(prove_pass, does_not_claim_what_it_cannot_state) {
