@@ -59,6 +59,8 @@ std::vector<std::string> build(const simulation_request& request, const std::str
              "--build",
              "--quiet-exit",
              "--no-timing",
+             // This optimisation of Verilator 5.006 gave wrong values for gates of a netlist (matrix_vector, generic).
+             "-fno-dfg",
              "--x-assign",
              "unique",
              "--x-initial",

@@ -39,6 +39,12 @@ class AllLevels(CheckTest):
         self.check_all("not_of_a_not", "--target", "generic", "--tokens", "60", folder=KERNELS.parent / "regressions")
 
 
+    def test_a_netlist_that_verilator_optimises_wrongly(self):
+        # With its data-flow optimiser, Verilator 5.006 computes other sums than Icarus of these gates.
+        run = self.check(KERNELS / "matrix_vector.cpp", "matrix_vector", "--target", "generic", "--levels", "netlist")
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+
+
 class Stimulus(CheckTest):
     def test_what_a_run_leaves_can_be_given_to_the_next_which_notices_other_answers(self):
         source = KERNELS / "crc32.cpp"
