@@ -14,8 +14,8 @@ namespace epiline::emit {
 using nlohmann::json;
 
 json make_network_report(const dataflow::network& n, const schedule::delay_model& model,
-                         const std::vector<schedule::result>& schedules, const std::vector<json>& passes,
-                         bool axi_lite) {
+                         const std::vector<schedule::result>& schedules, const std::vector<json>& passes, bool axi_lite,
+                         const std::optional<device_delays>& delays) {
   json processes = json::array();
   double period = 0;
   double estimated = 0;
@@ -25,7 +25,7 @@ json make_network_report(const dataflow::network& n, const schedule::delay_model
   int interval = 1;
   for (std::size_t i = 0; i < n.processes.size(); ++i) {
     processes.push_back(make_report(n.processes[i], model, schedules[i],
-                                    {.delay_lines = {}, .axi_lite = axi_lite, .passes = passes[i]}));
+                                    {.delay_lines = {}, .axi_lite = axi_lite, .passes = passes[i], .delays = delays}));
     const json& report = processes.back();
     period = std::max(period, schedules[i].period);
     estimated = std::max(estimated, schedules[i].critical_delay);
@@ -55,12 +55,24 @@ json make_network_report(const dataflow::network& n, const schedule::delay_model
                        {"block_rams", p.block_rams},
                        {"where", location(outside, f.where)}});
   }
+  // Wires are as long as the whole network makes them.
+  json slowest = nullptr;
+  for (std::size_t i = 0; delays && i < n.processes.size(); ++i) {
+    const dataflow::graph& g = n.processes[i];
+    const plan p = make_plan(g, model, schedules[i]);
+    const design_size size{luts, static_cast<double>(flip_flops)};
+    json prediction = to_json(g, predict_clock(g, model, schedules[i], p, *delays, size));
+    processes[i]["prediction"] = prediction;
+    if (slowest.is_null() || prediction["period_ns"] > slowest["period_ns"]) slowest = std::move(prediction);
+  }
+
   json report;
   report["schema"] = processes.front()["schema"];
   report["schema_version"] = processes.front()["schema_version"];
   report["top"] = n.name;
   report["target"] = model.target();
   report["clock"] = {{"period_ns", period}, {"estimated_period_ns", estimated}};
+  report["prediction"] = slowest;
   report["initiation_interval"] = interval;
   report["interface"] = describe_interface(outside, false);
   report["streams"] = streams;
@@ -85,6 +97,7 @@ std::string network_report_text(const json& report) {
        report["streams"].size());
   line("target {}, period {:.2f} ns; slowest chain {:.2f} ns (estimated)", name(report["target"]),
        report["clock"]["period_ns"].get<double>(), report["clock"]["estimated_period_ns"].get<double>());
+  if (!report["prediction"].is_null()) line("{}", prediction_text(report["prediction"]));
   line("\nEstimated size: {:.0f} LUT4, {} flip-flops, {} block RAMs", report["estimate"]["lut4"].get<double>(),
        number(report["registers"]["total_bits"]), number(report["estimate"]["block_rams"]));
   line("\nStreams between processes");

@@ -27,7 +27,7 @@ using schedule::storage_kind;
 namespace {
 
 constexpr std::size_t most_lines = 40;  // of the list of costly source lines
-constexpr int schema_version = 2;       // docs/report.schema.json says what it means
+constexpr int schema_version = 3;       // docs/report.schema.json says what it means
 
 }  // namespace
 
@@ -232,6 +232,11 @@ json make_report(const graph& g, const schedule::delay_model& model, const sched
                   {"where", location(g, g.registers[slowest->state].where)}};
   }
   report["limiting_recurrence"] = recurrence;
+  report["prediction"] = nullptr;
+  if (options.delays) {
+    const design_size size{luts + fifo_luts, report["registers"]["total_bits"].get<double>()};
+    report["prediction"] = to_json(g, predict_clock(g, model, s, p, *options.delays, size));
+  }
   report["lines"] = describe_lines(g, model, s, p);
   report["variables"] = describe_variables(g, s, p);
   report["limit"] = describe_limit(report);
@@ -250,6 +255,7 @@ std::string report_text(const json& report) {
        number(report["initiation_interval"]));
   line("target {}, period {:.2f} ns; slowest chain {:.2f} ns (estimated)", report["target"].get<std::string>(),
        report["clock"]["period_ns"].get<double>(), report["clock"]["estimated_period_ns"].get<double>());
+  if (!report["prediction"].is_null()) line("{}", prediction_text(report["prediction"]));
   if (number(report["drain_clocks_per_call"]) > 0) {
     line("a call's parameters take effect after {} clocks without an issue", number(report["drain_clocks_per_call"]));
   }

@@ -3,9 +3,11 @@
 // it.
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "dataflow/graph.hpp"
+#include "emit/clock_prediction.hpp"
 #include "emit/plan.hpp"
 #include "schedule/schedule.hpp"
 
@@ -15,9 +17,10 @@ struct report_options {
   delay_line_limits delay_lines = {};               // the same as for the Verilog
   bool axi_lite = false;                            // likewise
   nlohmann::json passes = nlohmann::json::array();  // statistics of the passes, as the caller has them
+  std::optional<device_delays> delays = {};         // for the prediction of the clock; none: it is null
 };
 
-/// Schema "epiline-report/2", docs/report.schema.json. Key "interface" suffices to drive the module.
+/// Schema "epiline-report/3", docs/report.schema.json. Key "interface" suffices to drive the module.
 [[nodiscard]] nlohmann::json make_report(const dataflow::graph& g, const schedule::delay_model& model,
                                          const schedule::result& s, const report_options& options = {});
 

@@ -56,6 +56,13 @@ class delay_model {
   /// `target`: "ecp5", "hx8k" or "generic". Throws std::invalid_argument, naming the known ones, for anything else.
   explicit delay_model(std::string_view target);
 
+  /// The same target with other delays.
+  [[nodiscard]] delay_model with(const delay_parameters& parameters) const {
+    delay_model other = *this;
+    other.parameters_ = parameters;
+    return other;
+  }
+
   [[nodiscard]] const std::string& target() const { return target_; }
   [[nodiscard]] const delay_parameters& parameters() const { return parameters_; }
 
