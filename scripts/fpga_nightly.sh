@@ -71,6 +71,12 @@ for entry in "${tops[@]}"; do
     echo "epiline has no design $top: not simulated"
     continue
   fi
+  # Of the smallest scene's size, 384x288. Tests cut a part out for smaller designs (tests/cosim/netlist_cells_test.cpp).
+  columns=$("$folder/bin/epiline" match --list | sed -n "/^$top:/,/images up to/s/.*images up to \([0-9]*\)x.*/\1/p")
+  if [ "$columns" -lt 384 ]; then
+    echo "$top takes $columns columns: the scene is too large for it, its netlist runs on a part of it in the tests"
+    continue
+  fi
   "$folder/bin/epiline" compare --design "$top" --engines native,netlist "${pair[@]}" || problems+=("netlist of $top")
   # What was simulated must be what was placed.
   cmp "$folder/tb/cosim/${top}_netlist.netlist/${top}_netlist.v" "$place/synthesis/${top}_netlist.v" ||
