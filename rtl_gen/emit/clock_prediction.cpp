@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,8 @@ using schedule::settled;
 using schedule::storage_kind;
 
 namespace {
+
+constexpr double alike = 0.05;  // chains that differ by less, in nanoseconds or wires, are one
 
 constexpr const char* built_in_delays =
 #include "emit/device_delays.inc"
@@ -54,12 +57,7 @@ constexpr named_delay named_delays[] = {{"cells_ns", "clock_to_out", &device_del
                                         {"wires_ns", "block_wire", &device_delays::block_wire},
                                         {"wires_ns", "longest_by_side", &device_delays::longest_by_side}};
 
-/// A chain from a clock to here.
-struct chain {
-  double cells = 0;
-  double wires = 0;
-  double doublings = 0;
-};
+using chain = timed_chain;
 
 chain operator+(const chain& a, const chain& b) {
   return {a.cells + b.cells, a.wires + b.wires, a.doublings + b.doublings};
@@ -113,6 +111,10 @@ class predictor {
     end_in_state();
     follow_issue();
     for (const output_fifo& f : plan_.fifos) follow_output(f);
+    best_.side = side_;
+    std::sort(best_.chains.begin(), best_.chains.end(), [](const chain& a, const chain& b) {
+      return std::tuple(a.cells, a.wires, a.doublings) > std::tuple(b.cells, b.wires, b.doublings);
+    });
     return best_;
   }
 
@@ -123,7 +125,20 @@ class predictor {
 
   void offer(const chain& c, const std::string& end, dataflow::source_location where) {
     const double period = total(c) + d_.longest_by_side * side_;
-    if (period > best_.period) best_ = {period, c.cells, c.wires, c.doublings, side_, end, where};
+    if (period > best_.period) {
+      best_.period = period;
+      best_.longest = c;
+      best_.end = end;
+      best_.where = where;
+    }
+    const auto covers = [](const chain& a, const chain& b) {
+      return a.cells >= b.cells - alike && a.wires >= b.wires - alike && a.doublings >= b.doublings - alike;
+    };
+    std::vector<chain>& front = best_.chains;
+    if (std::any_of(front.begin(), front.end(), [&](const chain& other) { return covers(other, c); })) return;
+    front.erase(std::remove_if(front.begin(), front.end(), [&](const chain& other) { return covers(c, other); }),
+                front.end());
+    front.push_back(c);
   }
 
   /// The last wire leads inside a slice from a LUT to its flip-flop.
@@ -293,9 +308,18 @@ clock_prediction predict_clock(const graph& g, const delay_model& model, const s
 }
 
 json to_json(const graph& g, const clock_prediction& prediction) {
-  return {{"period_ns", prediction.period},           {"cells_ns", prediction.cells}, {"wires", prediction.wires},
-          {"reader_doublings", prediction.doublings}, {"side", prediction.side},      {"ends_at", prediction.end},
-          {"where", location(g, prediction.where)}};
+  json chains = json::array();
+  for (const timed_chain& c : prediction.chains) {
+    chains.push_back({{"cells_ns", c.cells}, {"wires", c.wires}, {"reader_doublings", c.doublings}});
+  }
+  return {{"period_ns", prediction.period},
+          {"cells_ns", prediction.longest.cells},
+          {"wires", prediction.longest.wires},
+          {"reader_doublings", prediction.longest.doublings},
+          {"side", prediction.side},
+          {"ends_at", prediction.end},
+          {"where", location(g, prediction.where)},
+          {"chains", chains}};
 }
 
 std::string prediction_text(const json& prediction) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "dataflow/graph.hpp"
 #include "emit/plan.hpp"
@@ -53,14 +54,20 @@ struct design_size {
   [[nodiscard]] double side() const;
 };
 
+/// What a chain from clock to clock goes through.
+struct timed_chain {
+  double cells = 0;      // nanoseconds
+  double wires = 0;      // one after another; a part of one where a cell holds several operations
+  double doublings = 0;  // of the readers of these wires, together
+};
+
 struct clock_prediction {
-  double period = 0;     // nanoseconds
-  double cells = 0;      // of them, in cells
-  double wires = 0;      // number of wires one after another; a part of a wire where cells hold parts of an operation
-  double doublings = 0;  // doublings of the readers of these wires, together
-  double side = 0;       // of the design
-  std::string end;       // what the chain ends in
+  double period = 0;  // nanoseconds
+  timed_chain longest;
+  double side = 0;  // of the design
+  std::string end;  // what the chain ends in
   dataflow::source_location where;
+  std::vector<timed_chain> chains;  // all that would be the longest in some other delays of wires
 };
 
 [[nodiscard]] clock_prediction predict_clock(const dataflow::graph& g, const schedule::delay_model& model,
