@@ -196,6 +196,12 @@ class access_collector {
       type = path.back().container;  // a pointer to the first member stands for the whole
       path.pop_back();
     }
+    // Clang passes a struct of up to 16 bytes as two integers, { i64, i64 }: the second one is a place in bytes, too.
+    if (llvm::APInt offset(64, 0);
+        type != source && !is_first_of(type, source) && element.accumulateConstantOffset(layout_, offset)) {
+      descend_bytes(element, offset.getSExtValue(), path, type);
+      return;
+    }
     while (type != source) {
       if (!step_into_first(path, type))
         refuse(place_of(element),
