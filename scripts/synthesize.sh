@@ -106,10 +106,14 @@ fi
 if loop=$(grep -m1 -A3 'found logic loop' "$folder/early_check.txt"); then
   fail "the Verilog has a combinational loop: $loop"
 fi
-if [ "$family" = ecp5 ]; then python3 scripts/ram_output_registers.py "$folder/$top.json"; fi
+if [ "$family" = ecp5 ]; then
+  python3 scripts/ram_output_registers.py "$folder/$top.json"
+  python3 scripts/carry_chains.py "$folder/$top.json"
+fi
 (cd "$folder" && "$yosys" -Q -T -q -l yosys_netlist.log -p "
   read_json $top.json
   tee -q -o statistics.json stat -json
   write_verilog -noattr -simple-lhs ${top}_netlist.v
 " >>yosys.out 2>&1) || fail "Yosys cannot read its own netlist; its log is $folder/yosys_netlist.log"
+if [ "$family" = ecp5 ]; then python3 scripts/carry_chains.py --open-ends "$folder/$top.json"; fi
 python3 scripts/netlist_resources.py "$folder" "$top" "$target" "${sources[@]}"
