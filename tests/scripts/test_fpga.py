@@ -2,9 +2,12 @@
 
 import json
 import pathlib
+import re
+import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 import unittest
 from unittest import mock
@@ -16,6 +19,7 @@ import critical_path  # noqa: E402
 import devices  # noqa: E402
 import figures  # noqa: E402
 import steps  # noqa: E402
+import tools  # noqa: E402
 from flow_error import flow_error  # noqa: E402
 
 
@@ -378,6 +382,38 @@ class published_table(fpga_bench):
         self.assertEqual(ended.returncode, 1)
         self.assertIn("counter.json is not a result of scripts/fpga.sh", ended.stderr)
         self.assertFalse((self.folder / "results.md").exists())
+
+
+class the_tools_environment(unittest.TestCase):
+    def test_hangs_on_no_checkout_so_that_several_can_share_it(self):
+        with tempfile.TemporaryDirectory() as place:
+            folder, moved = pathlib.Path(place, "tools"), pathlib.Path(place, "checkout", "scripts", "fpga")
+            (folder / "bin").mkdir(parents=True)
+            shutil.copytree(root / "scripts" / "fpga", moved)
+            shutil.copy(root / "scripts" / "requirements-fpga.txt", moved.parent)
+            tools.write_wrappers(folder)
+            for name in tools.wrappers:
+                text = (folder / "bin" / name).read_text(encoding="utf-8")
+                self.assertNotIn(str(root), text)
+                program = re.search(r'-B "([^"]+)"', text)[1]
+                self.assertTrue(pathlib.Path(program).is_relative_to(folder), program)
+                self.assertTrue(pathlib.Path(program).exists(), program)
+            other = subprocess.run(
+                [sys.executable, "-B", "-c", "import tools; print(tools.fingerprint())"],
+                cwd=moved, capture_output=True, text=True, check=True,
+            )
+            self.assertEqual(other.stdout.strip(), tools.fingerprint())
+
+    def test_is_made_anew_when_what_it_runs_changes(self):
+        before = tools.fingerprint()
+        with tempfile.TemporaryDirectory() as place:
+            for file in tools.programs():
+                shutil.copy(file, place)
+            with mock.patch.object(tools, "here", pathlib.Path(place)):
+                self.assertEqual(tools.fingerprint(), before)
+                changed = pathlib.Path(place, tools.programs()[0].name)
+                changed.write_bytes(changed.read_bytes() + b"\n")
+                self.assertNotEqual(tools.fingerprint(), before)
 
 
 if __name__ == "__main__":
