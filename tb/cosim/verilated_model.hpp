@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "cosim/model.hpp"
 #include "cosim/token_list.hpp"
@@ -48,10 +49,12 @@ void get_field(const VlWide<Words>& signal, std::span<std::uint32_t> token, unsi
 template <class Top>
 class verilated_model : public rtl_model {
  public:
-  explicit verilated_model(std::uint64_t seed) {
+  /// `more`: what the constructor of `Top` takes after the context.
+  template <class... More>
+  explicit verilated_model(std::uint64_t seed, More&&... more) {
     context_.randReset(2);
     context_.randSeed(static_cast<int>(seed % 0x7ffffffeu) + 1);
-    top_ = std::make_unique<Top>(&context_);
+    top_ = std::make_unique<Top>(&context_, std::forward<More>(more)...);
   }
   ~verilated_model() override { top_->final(); }
 

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <deque>
 #include <fstream>
 #include <memory>
@@ -179,18 +180,21 @@ void visit_payload(T& value, token_visitor& to) {
     visit_value(value, to);
   }
 }
+/// visit_payload of a type, so that what follows need not be compiled for each type.
+using payload_visit = void (*)(void* value, token_visitor& to);
 template <class T>
-std::vector<field_format> format_of() {
-  T value{};
+void visit_erased(void* value, token_visitor& to) {
+  visit_payload(*static_cast<T*>(value), to);
+}
+inline std::vector<field_format> format_of(payload_visit visit, void* value) {
   token_visitor to(token_visitor::mode::format, nullptr);
-  visit_payload(value, to);
+  visit(value, to);
   return to.format();
 }
-template <class T>
-token token_of(T value) {
+inline token token_of(payload_visit visit, void* value) {
   token result;
   token_visitor to(token_visitor::mode::get, &result);
-  visit_payload(value, to);
+  visit(value, to);
   return result;
 }
 
@@ -212,23 +216,25 @@ class session {
   /// What does not depend on the type of the tokens.
   class port {
    public:
-    explicit port(channel& c) : channel_(c) {}
+    port(channel& c, payload_visit visit) : channel_(c), visit_(visit) {}
     port(const port&) = delete;
     port& operator=(const port&) = delete;
     virtual ~port() = default;
     virtual void finish(session& s) = 0;
 
    protected:
+    void record(void* value) { channel_.tokens.push_back(token_of(visit_, value)); }
     channel& channel_;
+    payload_visit visit_;
   };
 
   template <class T>
   class input_stream final : public port {
    public:
-    explicit input_stream(channel& c) : port(c), stream(c.name.c_str()) {}
-    void push(const T& value) {
+    explicit input_stream(channel& c) : port(c, visit_erased<T>), stream(c.name.c_str()) {}
+    void push(T value) {
       stream.write(value);
-      this->channel_.tokens.push_back(token_of<T>(value));
+      this->record(&value);
     }
     /// Takes the tokens that were not read out again: how many a program reads is sometimes known only afterwards.
     void take_back() {
@@ -237,39 +243,44 @@ class session {
         this->channel_.tokens.pop_back();
       }
     }
-    void finish(session& s) override { s.expect(stream.empty(), "unread tokens in " + this->channel_.name); }
+    void finish(session& s) override { s.expect_drained(stream); }
     hls::stream<T> stream;
   };
 
   template <class T>
   class output_stream final : public port {
    public:
-    explicit output_stream(channel& c) : port(c), stream(c.name.c_str()) {}
+    explicit output_stream(channel& c) : port(c, visit_erased<T>), stream(c.name.c_str()) {}
     /// Takes all tokens written since the last time.
     std::vector<T> drain() {
       std::vector<T> result;
       while (!stream.empty()) {
         result.push_back(stream.read());
-        this->channel_.tokens.push_back(token_of<T>(result.back()));
+        this->record(&result.back());
       }
       return result;
     }
     void finish(session&) override {
-      while (!stream.empty()) this->channel_.tokens.push_back(token_of<T>(stream.read()));
+      while (!stream.empty()) {
+        T value = stream.read();
+        this->record(&value);
+      }
     }
     hls::stream<T> stream;
   };
 
   template <class T>
   input_stream<T>& input(const std::string& name) {
-    auto* made = new input_stream<T>(add(name, "input", "stream", format_of<T>()));
-    ports_.emplace_back(made);
+    T blank{};
+    auto* made = new input_stream<T>(add(name, "input", "stream", format_of(visit_erased<T>, &blank)));
+    keep(made);
     return *made;
   }
   template <class T>
   output_stream<T>& output(const std::string& name) {
-    auto* made = new output_stream<T>(add(name, "output", "stream", format_of<T>()));
-    ports_.emplace_back(made);
+    T blank{};
+    auto* made = new output_stream<T>(add(name, "output", "stream", format_of(visit_erased<T>, &blank)));
+    keep(made);
     return *made;
   }
 
@@ -279,8 +290,11 @@ class session {
     unsigned width;
     bits value;
     template <class T>
-    argument(std::string n, const T& v) : name(std::move(n)), value(token_of<T>(v)[0]) {
-      if (std::is_same_v<T, bool>) value.resize(1);  // a scalar has exactly its bits
+    argument(const char* n, T v) : argument(n, visit_erased<T>, &v, std::is_same_v<T, bool>) {}
+
+   private:
+    argument(const char* n, payload_visit visit, void* v, bool is_bool) : name(n), value(token_of(visit, v)[0]) {
+      if (is_bool) value.resize(1);  // a scalar has exactly its bits
       width = static_cast<unsigned>(value.size());
     }
   };
@@ -297,11 +311,8 @@ class session {
   }
   /// A scalar by reference after a call.
   template <class T>
-  void result(const std::string& name, const T& value) {
-    channel* c = find(name);
-    const argument a(name, value);
-    if (c == nullptr) c = &add(name, "output", "result", {{"tdata", a.width}});
-    c->tokens.push_back({a.value});
+  void result(const char* name, const T& value) {
+    add_result(argument(name, value));
   }
 
   /// Uniform in [low, high].
@@ -313,10 +324,8 @@ class session {
   /// bit).
   template <class T>
   T any() {
-    token t = any_token(format_of<T>());
     T value{};
-    token_visitor to(token_visitor::mode::set, &t);
-    visit_payload(value, to);
+    fill(visit_erased<T>, &value);
     return value;
   }
 
@@ -324,6 +333,9 @@ class session {
     if (condition) return;
     std::fprintf(stderr, "%s: native: %s\n", name_.c_str(), what.c_str());
     failed_ = true;
+  }
+  void expect_drained(const hls::detail::stream_base& stream) {
+    expect(stream.empty(), "unread tokens in " + stream.name());
   }
   /// Compares a drained output with what an independent computation says.
   template <class T, class U>
@@ -357,6 +369,17 @@ class session {
   }
 
  private:
+  void keep(port* made) { ports_.emplace_back(made); }
+  void add_result(const argument& a) {
+    channel* c = find(a.name);
+    if (c == nullptr) c = &add(a.name, "output", "result", {{"tdata", a.width}});
+    c->tokens.push_back({a.value});
+  }
+  void fill(payload_visit visit, void* value) {
+    token t = any_token(format_of(visit, value));
+    token_visitor to(token_visitor::mode::set, &t);
+    visit(value, to);
+  }
   token any_token(const std::vector<field_format>& format) {
     token t;
     for (const field_format& f : format) {

@@ -35,9 +35,9 @@ def programs_of(build):
 
 def key_of(build):
     """A name for everything that decides what becomes of a seed."""
-    files = list(programs_of(build).values()) + [HERE / "random_program.py", HERE / "run_batch.py",
-                                                HERE / "kernel_options.py"]
-    files += [HERE / "drive.hpp", HERE / "drive_main.cpp", ROOT / "tb" / "cosim" / "make_model.py"]
+    files = list(programs_of(build).values())
+    files += [HERE / name for name in ("random_program.py", "run_batch.py", "kernel_options.py", "verilator_group.py",
+                                       "group_model.hpp", "drive.hpp", "drive_main.cpp")]
     files += sorted((HERE / "generator").glob("*.py")) + sorted((ROOT / "hls" / "types").rglob("*.h"))
     files += sorted((ROOT / "tb" / "cosim").glob("*.hpp"))
     digest = hashlib.sha256()

@@ -1,9 +1,6 @@
 #!/usr/bin/env python3
 """Compiles many programs with epiline-hls and compares native = dataflow graph = RTL, with few Verilator builds.
 
-All modules of a group stand in one Verilog wrapper, each with a clock of its own, so that a group costs one run of Verilator
-and one C++ build, and a module that is not being looked at costs nothing.
-
   run_batch.py [options] kernels NAME...         tests/compiler/kernels/NAME.cpp with their drivers
   run_batch.py [options] regressions NAME...     tests/compiler/regressions/NAME.cpp with their drivers
   run_batch.py [options] random FIRST COUNT      programs of random_program.py, seeds FIRST to FIRST + COUNT - 1
@@ -28,10 +25,9 @@ import time
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 sys.path.insert(0, str(HERE))
-sys.path.insert(0, str(ROOT / "tb" / "cosim"))
 
-import make_model  # noqa: E402
 import random_program  # noqa: E402
+import verilator_group  # noqa: E402
 from kernel_options import options_of  # noqa: E402
 
 COMPILER_SECONDS = 60
@@ -49,6 +45,10 @@ class Batch:
         self.sources = {}  # name -> source file
         self.features = {}  # name -> what is in a random program
         self.started = time.monotonic()
+        self.folder_of_headers = pathlib.Path(options.precompiled or self.work / "precompiled").resolve()
+        if not options.graph_only:
+            self.builder = verilator_group.Builder(options.cxx, options.model_flags, options.verilated,
+                                                   self.folder_of_headers)
 
     def fail(self, name, level, text):
         self.failures.append((name, level, text))
@@ -81,9 +81,8 @@ class Batch:
 
     def precompiled(self, compiler, extra):
         """The options that make `compiler` take what every driver includes from a precompiled header."""
-        folder = pathlib.Path(self.options.precompiled or self.work / "precompiled").resolve()
         is_clang = "clang" in pathlib.Path(compiler).name
-        header = folder / re.sub(r"\W", "_", " ".join([compiler, *extra])) / "drive.hpp"
+        header = self.folder_of_headers / re.sub(r"\W", "_", " ".join([compiler, *extra])) / "drive.hpp"
         made = header.with_name("drive.hpp.pch" if is_clang else "drive.hpp.gch")
         if not made.exists():
             header.parent.mkdir(parents=True, exist_ok=True)
@@ -206,79 +205,16 @@ class Batch:
         return None
 
     # ---- RTL ----------------------------------------------------------------------------------------------------
-    def write_group(self, index, names):
-        """The wrapper of a group, the classes that make one module of it look like a model of its own, and their table."""
-        folder = self.work / "groups" / f"group_{index}"
-        shutil.rmtree(folder, ignore_errors=True)
-        folder.mkdir(parents=True)
-        wrapper_ports, instances = [], []
-        for name in names:
-            report = json.loads((self.work / "rtl" / name / "report.json").read_text(encoding="utf-8"))
-            signals = [("clk", 1, True), ("rst", 1, True)]
-            for port in report["interface"]["ports"]:
-                is_input = port["direction"] == "input"
-                signals.append((port["valid"], 1, is_input))
-                signals.append((port["ready"], 1, not is_input))
-                signals += [(field["rtl"], field["width"], is_input) for field in port["fields"]]
-            connections, members = [], []
-            for signal, width, is_input in signals:
-                full = f"{name}_0_{signal}"
-                wrapper_ports.append(f"{'input' if is_input else 'output'} wire [{width - 1}:0] {full}")
-                connections.append(f".{signal}({full})")
-                verilated = full.replace("__", "___05F")
-                members.append(f"  decltype(Vgroup::{verilated}) {signal.replace('__', '___05F')} = this->{verilated};")
-            instances.append(f"  {name} {name}_instance ({', '.join(connections)});")
-            (folder / f"V{name}.h").write_text(
-                "#pragma once\n#include \"Vgroup.h\"\n"
-                f"class V{name} : public Vgroup {{\n public:\n  using Vgroup::Vgroup;\n" + "\n".join(members) + "\n};\n",
-                encoding="utf-8")
-            make_model.write_model(str(self.work / "rtl" / name / "report.json"), name, folder)
-        (folder / "group.v").write_text(
-            "module group (\n  " + ",\n  ".join(wrapper_ports) + "\n);\n" + "\n".join(instances) + "\nendmodule\n",
-            encoding="utf-8")
-        table = ["#include <cstdint>", "#include <cstring>", '#include "cosim/model.hpp"']
-        table += [f'#include "{name}_model.cpp"' for name in names]
-        table.append('extern "C" epiline::cosim::rtl_model* epiline_make_model(const char* name, std::uint64_t seed) {')
-        table += [f'  if (std::strcmp(name, "{name}") == 0) return epiline::cosim::make_{name}_model(seed).release();'
-                  for name in names]
-        table += ["  return nullptr;", "}"]
-        (folder / "models.cpp").write_text("\n".join(table) + "\n", encoding="utf-8")
-        return folder
-
-    def build_group(self, folder, names):
-        verilog = [str(self.work / "rtl" / name / f"{name}.v") for name in names]
-        command = ["verilator", "--cc", "--quiet-exit", "--no-timing", "-O3", "--x-assign", "unique", "--x-initial",
-                   "unique", "--noassert", "--output-split", "15000", "--output-split-cfuncs", "500", "-Wall",
-                   "-Wno-fatal", "-Wno-lint", "-Wno-style", "-Wno-MODDUP", "--top-module", "group", "--prefix", "Vgroup",
-                   "--Mdir", str(folder / "model"), str(folder / "group.v"), *verilog]
-        run = subprocess.run(command, capture_output=True, text=True, check=False)
-        if run.returncode != 0:
-            return "Verilator: " + "; ".join(l for l in run.stderr.splitlines() if "rror" in l)[:600]
-        flags = [f"OPT_FAST={self.options.model_flags}", "OPT_SLOW=-O0", "USER_CPPFLAGS=-w -fPIC",
-                 f"CXX={self.options.cxx}", "VM_PARALLEL_BUILDS=1", "CFG_CXXFLAGS_STD=-std=c++20"]
-        run = subprocess.run(["make", "--silent", "-C", str(folder / "model"), "-f", "Vgroup.mk", "Vgroup__ALL.a", *flags],
-                             capture_output=True, text=True, check=False)
-        if run.returncode != 0:
-            return "C++ of the model: " + run.stderr[-600:]
-        root = subprocess.run(["verilator", "--getenv", "VERILATOR_ROOT"], capture_output=True, text=True,
-                              check=True).stdout.strip()
-        run = subprocess.run(
-            [self.options.cxx, "-std=c++20", self.options.model_flags, "-w", "-fPIC", "-shared", f"-I{folder}", f"-I{folder / 'model'}",
-             f"-I{ROOT / 'tb'}", f"-I{root}/include", f"-I{root}/include/vltstd", str(folder / "models.cpp"),
-             str(folder / "model" / "Vgroup__ALL.a"), self.options.verilated, "-pthread", "-o", str(folder / "models.so")],
-            capture_output=True, text=True, check=False)
-        if run.returncode != 0:
-            return "binding: " + "; ".join(l for l in run.stderr.splitlines() if "error" in l)[:600]
-        return None
-
     def check_group(self, item):
         index, names = item
         tokens, rtl = self.work / "tokens", self.work / "rtl"
         models = []
         if not self.options.graph_only:
             try:
-                folder = self.write_group(index, names)
-                problem = self.build_group(folder, names)
+                folder = self.work / "groups" / f"group_{index}"
+                shutil.rmtree(folder, ignore_errors=True)
+                verilator_group.write(folder, rtl, names)
+                problem = self.builder.build(folder, [str(rtl / name / f"{name}.v") for name in names])
             except (subprocess.CalledProcessError, OSError, KeyError, ValueError) as error:
                 problem = f"{type(error).__name__}: {error}"
             if problem:

@@ -5,11 +5,9 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
-#include <memory>
 #include <mutex>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace hls {
@@ -163,6 +161,7 @@ class stream<T, 0> : public detail::stream_base {
   stream() : stream(nullptr) {}
   explicit stream(const char* name) : stream(0, name) {}
   explicit stream(const std::string& name) : stream(name.c_str()) {}
+  ~stream() { delete[] slots_; }
 
   /// Takes the oldest token. Throws stream_error if there is none.
   T read() {
@@ -170,7 +169,7 @@ class stream<T, 0> : public detail::stream_base {
       if (on_empty_read != nullptr) on_empty_read(*this);
       if (empty()) fail("read of");
     }
-    T value = std::move(slots_[read_ & mask_]);
+    T value = static_cast<T&&>(slots_[read_ & mask_]);
     count_read();
     return value;
   }
@@ -204,14 +203,16 @@ class stream<T, 0> : public detail::stream_base {
   // A power of two, so that counts map to slots by a mask.
   void grow() {
     const std::size_t count = slot_count_ == 0 ? 16 : 2 * slot_count_;
-    std::unique_ptr<T[]> bigger(new T[count]);
-    for (std::uint64_t i = read_; i != written_; ++i) bigger[i & (count - 1)] = std::move(slots_[i & mask_]);
-    slots_ = std::move(bigger);
+    T* const bigger = new T[count];
+    for (std::uint64_t i = read_; i != written_; ++i) bigger[i & (count - 1)] = static_cast<T&&>(slots_[i & mask_]);
+    delete[] slots_;
+    slots_ = bigger;
     slot_count_ = count;
     mask_ = count - 1;
   }
 
-  std::unique_ptr<T[]> slots_;
+  // Not a std::unique_ptr, whose fifty functions a compiler would have to make for every type of token.
+  T* slots_ = nullptr;
   std::size_t slot_count_ = 0;
   std::uint64_t mask_ = 0;
 };
