@@ -1,7 +1,7 @@
 #pragma once
 // One module of many that stand in a single Verilator model (written by verilator_group.py): all of a module's signals
-// lie in two wide ports of the model, one for each direction, so that a table tells how to drive it and no C++ has to be
-// compiled for each module.
+// lie in two wide ports of the model, one for each direction, so that a table tells how to drive it and no C++ has to
+// be compiled for each module.
 
 #include <verilated.h>
 
@@ -34,8 +34,8 @@ class verilated_group {
   virtual member_signals signals(unsigned member) = 0;
 };
 
-/// A port: `valid`, `ready` and `token` are indices of 32-bit words, of the inputs where the module reads them and of the
-/// outputs where it drives them. Token words are as in cosim::token_list.
+/// A port: `valid`, `ready` and `token` are indices of 32-bit words, of the inputs where the module reads them and of
+/// the outputs where it drives them. Token words are as in cosim::token_list.
 struct member_port {
   const char* name;
   cosim::port_kind kind;
