@@ -1,10 +1,15 @@
 #include "frontend/copies.hpp"
 
 #include <fmt/format.h>
+#include <llvm/Analysis/ValueTracking.h>
 #include <llvm/IR/IRBuilder.h>
 #include <llvm/IR/InstIterator.h>
 #include <llvm/IR/IntrinsicInst.h>
 #include <llvm/IR/Module.h>
+#include <llvm/Transforms/Utils/BasicBlockUtils.h>
+
+#include <algorithm>
+#include <set>
 
 #include "frontend/payload.hpp"
 #include "frontend/source.hpp"
@@ -13,7 +18,8 @@ namespace epiline::frontend {
 
 namespace {
 
-constexpr std::size_t largest_copy = 8192;  // scalars moved in one clock
+constexpr std::size_t largest_copy = 8192;      // scalars moved in one clock
+constexpr std::uint64_t longest_unrolled = 64;  // scalars of an array that becomes no memory for their sake
 
 /// Where the last member of a struct ends that is not padding: assignments copy that much.
 std::uint64_t end_of_members(llvm::StructType& structure, const llvm::DataLayout& layout) {
@@ -98,6 +104,150 @@ llvm::Value* element_address(llvm::IRBuilderBase& builder, llvm::Value* base, ll
   return builder.CreateInBoundsGEP(type, base, indices);
 }
 
+llvm::Constant* set_value(const llvm::MemSetInst& set, llvm::Type* type, const llvm::DataLayout& layout) {
+  const auto* pattern = llvm::dyn_cast<llvm::ConstantInt>(set.getValue());
+  if (pattern == nullptr || !type->isIntegerTy()) refuse(place_of(set), "memset with a run-time value: write a loop");
+  const unsigned stored_bits = static_cast<unsigned>(layout.getTypeStoreSizeInBits(type));
+  return llvm::ConstantInt::get(
+      type, llvm::APInt::getSplat(stored_bits, pattern->getValue().trunc(8)).trunc(type->getIntegerBitWidth()));
+}
+
+/// How an object is used: whether an index known at run time reaches into it, and what is partitioned in it.
+class object_uses {
+ public:
+  explicit object_uses(const llvm::Value* pointer, const llvm::DataLayout& layout)
+      : layout_(layout), object_(llvm::getUnderlyingObject(pointer, 0)) {
+    if (llvm::isa<llvm::AllocaInst, llvm::GlobalVariable>(object_)) follow(*object_);
+  }
+
+  bool indexed_at_run_time = false;
+
+  /// Whether ARRAY_PARTITION speaks of dimension `dimension`, counted from 1, of an array `offset` bytes from the
+  /// start.
+  [[nodiscard]] bool is_partitioned(std::uint64_t offset, unsigned dimension) const {
+    return std::any_of(partitions_.begin(), partitions_.end(), [&](const auto& one) {
+      return one.first <= offset && (one.second == 0 || one.second == dimension);
+    });
+  }
+
+ private:
+  void follow(const llvm::Value& pointer) {
+    if (!seen_.insert(&pointer).second) return;
+    for (const llvm::User* user : pointer.users()) {
+      if (const auto* element = llvm::dyn_cast<llvm::GEPOperator>(user))
+        indexed_at_run_time = indexed_at_run_time || !element->hasAllConstantIndices();
+      const auto* call = llvm::dyn_cast<llvm::CallInst>(user);
+      if (call != nullptr && call->getCalledFunction() != nullptr &&
+          call->getCalledFunction()->getName() == "__epiline_pragma_partition")
+        note_partition(*call, pointer);
+      if (llvm::isa<llvm::GEPOperator, llvm::PHINode, llvm::SelectInst, llvm::ConstantExpr>(user)) follow(*user);
+    }
+  }
+
+  void note_partition(const llvm::CallInst& call, const llvm::Value& pointer) {
+    llvm::APInt offset(64, 0);
+    if (pointer.stripAndAccumulateConstantOffsets(layout_, offset, true) != object_) return;
+    const auto* dimension = llvm::dyn_cast<llvm::ConstantInt>(call.getArgOperand(1));
+    partitions_.insert({offset.getZExtValue(), dimension == nullptr ? 0 : dimension->getZExtValue()});
+  }
+
+  const llvm::DataLayout& layout_;
+  const llvm::Value* object_;
+  std::set<const llvm::Value*> seen_;
+  std::set<std::pair<std::uint64_t, std::uint64_t>> partitions_;
+};
+
+/// Copies or sets a large object by loops: one word a clock is what a memory takes.
+class copy_loops {
+ public:
+  copy_loops(llvm::MemIntrinsic& copy, const object_uses& uses, const llvm::DataLayout& layout)
+      : copy_(copy), uses_(uses), layout_(layout), builder_(&copy) {}
+
+  void run(llvm::Type* type) {
+    auto* transfer = llvm::dyn_cast<llvm::MemTransferInst>(&copy_);
+    llvm::APInt offset(64, 0);
+    static_cast<void>(copy_.getRawDest()->stripAndAccumulateConstantOffsets(layout_, offset, true));
+    emit(type, copy_.getRawDest(), transfer == nullptr ? nullptr : transfer->getRawSource(), offset.getZExtValue(), 1);
+  }
+
+ private:
+  void emit(llvm::Type* type, llvm::Value* to, llvm::Value* from, std::uint64_t offset, unsigned dimension) {
+    if (auto* structure = llvm::dyn_cast<llvm::StructType>(type)) {
+      for (unsigned i = 0; i < structure->getNumElements(); ++i)
+        emit(structure->getElementType(i), element(type, to, builder_.getInt32(i)),
+             element(type, from, builder_.getInt32(i)),
+             offset + layout_.getStructLayout(structure)->getElementOffset(i), 1);
+    } else if (auto* array = llvm::dyn_cast<llvm::ArrayType>(type)) {
+      emit_array(*array, to, from, offset, dimension);
+    } else if (from != nullptr) {
+      builder_.CreateStore(builder_.CreateLoad(type, from), to);
+    } else {
+      builder_.CreateStore(set_value(llvm::cast<llvm::MemSetInst>(copy_), type, layout_), to);
+    }
+  }
+
+  void emit_array(llvm::ArrayType& array, llvm::Value* to, llvm::Value* from, std::uint64_t offset,
+                  unsigned dimension) {
+    llvm::Type* const type = array.getElementType();
+    const std::uint64_t count = array.getNumElements();
+    if (count <= 2 || uses_.is_partitioned(offset, dimension)) {
+      for (std::uint64_t i = 0; i < count; ++i)
+        emit(type, element(&array, to, builder_.getInt64(i)), element(&array, from, builder_.getInt64(i)), offset,
+             dimension + 1);
+      return;
+    }
+    llvm::BasicBlock* const before = builder_.GetInsertBlock();
+    llvm::BasicBlock* const after = llvm::SplitBlock(before, builder_.GetInsertPoint());
+    llvm::BasicBlock* const body = llvm::BasicBlock::Create(before->getContext(), "copy", before->getParent(), after);
+    before->getTerminator()->setSuccessor(0, body);
+    builder_.SetInsertPoint(body);
+    llvm::PHINode* const index = builder_.CreatePHI(builder_.getInt64Ty(), 2, "copy_index");
+    builder_.SetInsertPoint(builder_.CreateBr(after));
+    emit(type, element(&array, to, index), element(&array, from, index), offset, dimension + 1);
+    llvm::Instruction* const end = builder_.GetInsertBlock()->getTerminator();
+    llvm::Value* const next = builder_.CreateNUWAdd(index, builder_.getInt64(1));
+    builder_.CreateCondBr(builder_.CreateICmpEQ(next, builder_.getInt64(count)), after, body);
+    end->eraseFromParent();
+    index->addIncoming(builder_.getInt64(0), before);
+    index->addIncoming(next, builder_.GetInsertBlock());
+    builder_.SetInsertPoint(after, after->begin());
+  }
+
+  llvm::Value* element(llvm::Type* type, llvm::Value* base, llvm::Value* index) {
+    if (base == nullptr) return nullptr;
+    return builder_.CreateInBoundsGEP(type, base, {builder_.getInt32(0), index});
+  }
+
+  llvm::MemIntrinsic& copy_;
+  const object_uses& uses_;
+  const llvm::DataLayout& layout_;
+  llvm::IRBuilder<> builder_;
+};
+
+std::uint64_t scalars_in(llvm::Type* type) {
+  if (auto* array = llvm::dyn_cast<llvm::ArrayType>(type))
+    return array->getNumElements() * scalars_in(array->getElementType());
+  if (auto* structure = llvm::dyn_cast<llvm::StructType>(type)) {
+    std::uint64_t sum = 0;
+    for (llvm::Type* member : structure->elements()) sum += scalars_in(member);
+    return sum;
+  }
+  return 1;
+}
+
+/// Whether a copy of so much, of or into memories, is to be a loop. The two must not overlap: a loop writes before it
+/// has read all.
+bool is_for_loops(llvm::MemIntrinsic& copy, llvm::Type* type, const object_uses& uses, const llvm::DataLayout& layout) {
+  if (scalars_in(type) <= longest_unrolled) return false;
+  const auto* transfer = llvm::dyn_cast<llvm::MemTransferInst>(&copy);
+  if (transfer == nullptr) return uses.indexed_at_run_time;
+  const bool may_overlap =
+      llvm::isa<llvm::MemMoveInst>(copy) &&
+      llvm::getUnderlyingObject(copy.getRawDest(), 0) == llvm::getUnderlyingObject(transfer->getRawSource(), 0);
+  return !may_overlap &&
+         (uses.indexed_at_run_time || object_uses(transfer->getRawSource(), layout).indexed_at_run_time);
+}
+
 /// Returns whether the copy is replaced.
 bool expand(llvm::MemIntrinsic& copy, const llvm::DataLayout& layout, unknown_types otherwise) {
   auto* length = llvm::dyn_cast<llvm::ConstantInt>(copy.getLength());
@@ -113,6 +263,11 @@ bool expand(llvm::MemIntrinsic& copy, const llvm::DataLayout& layout, unknown_ty
     if (bytes != 0)
       refuse(place_of(copy),
              fmt::format("copy of {} bytes of unknown type: assign the members or elements one by one", bytes));
+    return true;
+  }
+  if (const object_uses uses(copy.getRawDest(), layout); is_for_loops(copy, type, uses, layout)) {
+    if (otherwise == unknown_types::kept) return false;  // what is indexed at run time shows when loops are unrolled
+    copy_loops(copy, uses, layout).run(type);
     return true;
   }
   std::vector<std::vector<unsigned>> paths;
@@ -131,12 +286,7 @@ bool expand(llvm::MemIntrinsic& copy, const llvm::DataLayout& layout, unknown_ty
           builder.CreateLoad(types[i], element_address(builder, transfer->getRawSource(), type, paths[i])));
       continue;
     }
-    auto* pattern = llvm::dyn_cast<llvm::ConstantInt>(llvm::cast<llvm::MemSetInst>(copy).getValue());
-    if (pattern == nullptr || !types[i]->isIntegerTy())
-      refuse(place_of(copy), "memset with a run-time value: write a loop");
-    const unsigned stored_bits = static_cast<unsigned>(layout.getTypeStoreSizeInBits(types[i]));
-    values.push_back(builder.getInt(
-        llvm::APInt::getSplat(stored_bits, pattern->getValue().trunc(8)).trunc(types[i]->getIntegerBitWidth())));
+    values.push_back(set_value(llvm::cast<llvm::MemSetInst>(copy), types[i], layout));
   }
   for (std::size_t i = 0; i < paths.size(); ++i)
     builder.CreateStore(values[i], element_address(builder, copy.getRawDest(), type, paths[i]));

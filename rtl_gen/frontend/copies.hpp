@@ -8,7 +8,8 @@ namespace epiline::frontend {
 enum class unknown_types { kept, refused };
 
 /// Replaces memcpy, memmove and memset of aggregates by loads and stores of their scalars, which the later steps can
-/// follow one by one. Refuses copies too large to happen in one clock.
+/// follow one by one: those of large arrays that are indexed at run time by loops, when `otherwise` is `refused` (until
+/// then they stay). Refuses other copies too large to happen in one clock. Changes the control flow.
 void expand_copies(llvm::Function& function, unknown_types otherwise);
 
 /// Structs that a calling convention returns in registers are loaded and stored as a whole: makes scalars of them.

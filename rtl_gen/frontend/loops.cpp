@@ -17,6 +17,9 @@
 #include <llvm/Transforms/Utils/LoopUtils.h>
 #include <llvm/Transforms/Utils/UnrollLoop.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <map>
 #include <set>
 
 #include "frontend/checks.hpp"
@@ -41,8 +44,8 @@ bool is_port_access(const llvm::Instruction& instruction) {
 /// A loop is named by its header: blocks stay while loops come and go.
 struct loop_marks {
   std::set<const llvm::BasicBlock*> pipelined;
-  std::set<const llvm::BasicBlock*> unrolled;
-  bool whole_function = false;  // one call is one iteration: its constant loops are unrolled
+  std::map<const llvm::BasicBlock*, unsigned> unrolled;  // passes side by side; 0: all
+  bool whole_function = false;                           // one call is one iteration: its constant loops are unrolled
   unsigned initiation_interval = 1;
 };
 
@@ -59,10 +62,14 @@ loop_marks take_pragmas(llvm::Function& function, const llvm::LoopInfo& loops) {
     const llvm::Loop* loop = loops.getLoopFor(call->getParent());
     const bool pipeline = call->getCalledFunction()->getName() == "__epiline_pragma_pipeline";
     // The outermost loop is the one that calls the top for ever: a pragma there is about the function as a whole.
-    if (loop != nullptr && loop->getLoopDepth() > 1)
-      (pipeline ? marks.pipelined : marks.unrolled).insert(loop->getHeader());
-    else if (pipeline)
+    if (loop != nullptr && loop->getLoopDepth() > 1) {
+      if (pipeline)
+        marks.pipelined.insert(loop->getHeader());
+      else
+        marks.unrolled[loop->getHeader()] = static_cast<unsigned>(pragma_number(*call, 0, 0));
+    } else if (pipeline) {
       marks.whole_function = true;
+    }
     if (pipeline)
       marks.initiation_interval =
           std::max(marks.initiation_interval, static_cast<unsigned>(pragma_number(*call, 0, 1)));
@@ -84,54 +91,103 @@ class unroller {
 
   unsigned run(bool every_loop) {
     marks_ = take_pragmas(function_, loops_);
+    every_loop_ = every_loop;
     // Outer loops decide for inner ones, inner loops are unrolled first.
     for (llvm::Loop* loop : loops_) decide(*loop, every_loop || marks_.whole_function);
     const llvm::SmallVector<llvm::Loop*, 4> order = loops_.getLoopsInPreorder();
     for (auto loop = order.rbegin(); loop != order.rend(); ++loop)
-      if (chosen_.count((*loop)->getHeader()) != 0) unroll(**loop);
+      if (const auto found = chosen_.find((*loop)->getHeader()); found != chosen_.end()) unroll(**loop, found->second);
     return marks_.initiation_interval;
   }
 
  private:
-  void decide(llvm::Loop& loop, bool inside_kept) {
-    const llvm::BasicBlock* header = loop.getHeader();
-    const unsigned exact = evolution_.getSmallConstantTripCount(&loop);
-    const unsigned most = exact != 0 ? exact : evolution_.getSmallConstantMaxTripCount(&loop);
-    const bool marked = marks_.unrolled.count(header) != 0;
-    bool accesses = false;
-    bool calls = false;  // processes, which access streams
+  /// What decides about a loop.
+  struct properties {
+    unsigned exact = 0;     // trips, 0: not known
+    unsigned most = 0;      // trips at most, 0: not known
+    bool marked = false;    // with UNROLL
+    unsigned factor = 0;    // that it gives, 0: all passes
+    bool accesses = false;  // a stream
+    bool calls = false;     // processes, which access streams
+    bool stays = false;     // whatever is around it
+  };
+
+  properties properties_of(const llvm::Loop& loop) {
+    properties of;
+    of.exact = evolution_.getSmallConstantTripCount(&loop);
+    of.most = of.exact != 0 ? of.exact : evolution_.getSmallConstantMaxTripCount(&loop);
+    if (const auto mark = marks_.unrolled.find(loop.getHeader()); mark != marks_.unrolled.end()) {
+      of.marked = true;
+      of.factor = of.most != 0 && mark->second >= of.most ? 0 : mark->second;
+    }
     for (const llvm::BasicBlock* block : loop.blocks())
       for (const llvm::Instruction& instruction : *block) {
-        accesses = accesses || is_port_access(instruction);
+        of.accesses = of.accesses || is_port_access(instruction);
         const auto* call = llvm::dyn_cast<llvm::CallInst>(&instruction);
-        calls = calls || (call != nullptr && call->getCalledFunction() != nullptr &&
-                          !call->getCalledFunction()->isDeclaration());
+        of.calls = of.calls || (call != nullptr && call->getCalledFunction() != nullptr &&
+                                !call->getCalledFunction()->isDeclaration());
       }
-    if (marked && most == 0)
+    of.stays = of.marked ? of.factor != 0
+                         : marks_.pipelined.count(loop.getHeader()) != 0 || of.accesses || of.most == 0 ||
+                               of.most > longest_inner_unroll;
+    return of;
+  }
+
+  /// Whether a loop inside stays one: unrolling around it would make many of it, which take turns all the same.
+  bool keeps_inner_loop(const llvm::Loop& loop) {
+    return std::any_of(loop.begin(), loop.end(), [&](const llvm::Loop* inner) {
+      return properties_of(*inner).stays || keeps_inner_loop(*inner);
+    });
+  }
+
+  /// Passes through the innermost body that unrolling the loop and all loops inside would make; 0: too many to count.
+  std::uint64_t trips_of_nest(const llvm::Loop& loop) {
+    std::uint64_t inside = 1;
+    for (const llvm::Loop* inner : loop) inside = std::max(inside, trips_of_nest(*inner));
+    return std::min<std::uint64_t>(inside * properties_of(loop).most, longest_marked_unroll);
+  }
+
+  void decide(llvm::Loop& loop, bool inside_kept) {
+    const llvm::BasicBlock* header = loop.getHeader();
+    const properties of = properties_of(loop);
+    const bool fully = of.marked && of.factor == 0;
+    if (fully && of.most == 0)
       refuse(place_of(loop),
              "#pragma HLS UNROLL on a loop whose number of trips is not known: bound it by a constant and leave early "
              "with a condition");
-    if (marked && most > longest_marked_unroll)
+    if (of.marked && (fully ? of.most : of.factor) > longest_marked_unroll)
       refuse(place_of(loop),
              fmt::format("#pragma HLS UNROLL on a loop of up to {} trips: {} are the most: bound it by a smaller "
                          "constant, or let it stay a loop",
-                         most, longest_marked_unroll));
-    if (!accesses && !calls && loop.hasNoExitBlocks())
+                         fully ? of.most : of.factor, longest_marked_unroll));
+    if (!of.accesses && !of.calls && loop.hasNoExitBlocks())
       refuse(place_of(loop),
              "endless loop without stream access: it can never give a result; bound it or access a stream in it");
-    bool unroll = marked;
-    if (!marked && marks_.pipelined.count(header) == 0 && !accesses && most != 0)
-      unroll = inside_kept ? most <= longest_inner_unroll : (exact != 0 && exact <= longest_outer_unroll);
-    if (unroll) chosen_.insert(header);
+    bool unroll = fully;
+    bool sequential = false;  // its passes take turns, and so do those of loops inside
+    if (!of.stays && !of.marked) {
+      const bool short_enough =
+          inside_kept ? of.most <= longest_inner_unroll : of.exact != 0 && trips_of_nest(loop) <= longest_outer_unroll;
+      unroll = short_enough && (every_loop_ || !keeps_inner_loop(loop));
+      sequential = !unroll && !inside_kept;
+    } else if (of.stays && loop.getLoopDepth() > 1) {
+      sequential = !inside_kept && marks_.pipelined.count(header) == 0 && keeps_inner_loop(loop);
+    }
+    if (unroll)
+      chosen_[header] = 0;
+    else if (of.factor > 1)
+      chosen_[header] = of.factor;
     const bool kept_here = !unroll && loop.getLoopDepth() > 1;
-    for (llvm::Loop* inner : loop) decide(*inner, inside_kept || kept_here || unroll);
+    for (llvm::Loop* inner : loop) decide(*inner, inside_kept || (kept_here && !sequential) || unroll);
   }
 
-  void unroll(llvm::Loop& loop) {
+  /// `factor` passes become one, with a test for the end after each that can be the last; 0: all passes.
+  void unroll(llvm::Loop& loop, unsigned factor) {
     const source_place place = place_of(loop);
     llvm::simplifyLoop(&loop, &dominators_, &loops_, &evolution_, &assumptions_, nullptr, false);
     llvm::formLCSSARecursively(loop, dominators_, &loops_, &evolution_);
-    unsigned count = evolution_.getSmallConstantTripCount(&loop);
+    unsigned count = factor;
+    if (count == 0) count = evolution_.getSmallConstantTripCount(&loop);
     if (count == 0) count = evolution_.getSmallConstantMaxTripCount(&loop);
     if (count == 0) return;  // only became countable by luck of analysis order: it stays a loop
     llvm::UnrollLoopOptions options{};
@@ -141,7 +197,9 @@ class unroller {
     options.ForgetAllSCEV = false;
     const llvm::LoopUnrollResult result =
         llvm::UnrollLoop(&loop, options, &loops_, &evolution_, &dominators_, &assumptions_, &costs_, &remarks_, true);
-    if (result != llvm::LoopUnrollResult::FullyUnrolled && marks_.unrolled.count(loop.getHeader()) != 0)
+    const bool done =
+        factor == 0 ? result == llvm::LoopUnrollResult::FullyUnrolled : result != llvm::LoopUnrollResult::Unmodified;
+    if (!done && marks_.unrolled.count(loop.getHeader()) != 0)
       refuse(place, "this loop cannot be unrolled: give it one exit and a constant number of trips");
   }
 
@@ -153,7 +211,8 @@ class unroller {
   llvm::TargetTransformInfo& costs_;
   llvm::OptimizationRemarkEmitter& remarks_;
   loop_marks marks_;
-  std::set<const llvm::BasicBlock*> chosen_;
+  bool every_loop_ = false;
+  std::map<const llvm::BasicBlock*, unsigned> chosen_;  // passes that become one; 0: all
 };
 
 }  // namespace

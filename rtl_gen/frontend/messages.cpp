@@ -50,8 +50,6 @@ std::vector<message> parse(const std::string& text) {
 /// What to do about what clang found.
 std::string advice_for(const std::string& text) {
   static const std::pair<std::regex, const char*> known[] = {
-      {std::regex("'ap_(u?fixed|ap_fixed).*' file not found"),
-       "fixed point is not supported: use ap_int and ap_uint, and shift by the number of fraction bits"},
       {std::regex("'hls_math.h' file not found"),
        "mathematical functions are not supported: use integer arithmetic, or a constexpr table"},
       {std::regex("'hls_vector.h' file not found"), "hls::vector is not supported: use a struct with an array in it"},

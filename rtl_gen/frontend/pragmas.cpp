@@ -29,13 +29,13 @@ struct pragma_line {
 
 pragma_line parse(llvm::StringRef text) {
   pragma_line result;
-  std::string normal;  // no blanks around '='
+  std::string normal;  // no blanks around '=' and ','
   for (const char c : text) {
-    if (c == '=') {
+    if (c == '=' || c == ',') {
       while (!normal.empty() && normal.back() == ' ') normal.pop_back();
-      normal += '=';
+      normal += c;
     } else if (llvm::isSpace(c)) {
-      if (!normal.empty() && normal.back() != '=' && normal.back() != ' ') normal += ' ';
+      if (!normal.empty() && normal.back() != '=' && normal.back() != ',' && normal.back() != ' ') normal += ' ';
     } else {
       normal += c;
     }
@@ -51,6 +51,32 @@ pragma_line parse(llvm::StringRef text) {
     result.options[key.lower()] = value.str();
   }
   return result;
+}
+
+/// One pragma for each name of a list, `port=a, b` or `variable=a, b`. Commas within brackets belong to an expression.
+std::vector<pragma_line> one_each(const pragma_line& pragma, const source_place& place) {
+  for (const char* key : {"port", "variable"}) {
+    const std::string names = pragma.get(key);
+    if (names.find(',') == std::string::npos) continue;
+    std::vector<pragma_line> result(1, pragma);
+    result.back().options[key].clear();
+    int depth = 0;
+    for (const char c : names) {
+      depth += llvm::StringRef("([<").contains(c) ? 1 : llvm::StringRef(")]>").contains(c) ? -1 : 0;
+      if (c != ',' || depth != 0) {
+        result.back().options[key] += c;
+        continue;
+      }
+      result.push_back(pragma);
+      result.back().options[key].clear();
+    }
+    for (const pragma_line& one : result)
+      if (one.get(key).empty() || llvm::StringRef(one.get(key)).contains('='))
+        refuse(place, fmt::format("#pragma HLS {}: a name is missing in '{}': put one between the commas",
+                                  llvm::StringRef(pragma.name).upper(), names));
+    return result;
+  }
+  return {pragma};
 }
 
 /// `type=inter` or the bare flag `inter`.
@@ -144,11 +170,7 @@ std::string replacement(const pragma_line& pragma, const source_place& place, st
   if (pragma.name == "unroll") {
     check_options(pragma, {"factor", "skip_exit_check", "region", "off"}, place);
     if (pragma.has("off")) return "";
-    if (pragma.has("factor"))
-      refuse(place,
-             "#pragma HLS UNROLL factor=N: only full unrolling is supported: drop the factor, or write the "
-             "partly unrolled loop out as two nested loops");
-    return "__epiline_pragma_unroll();";
+    return fmt::format("__epiline_pragma_unroll({});", number_of(pragma, "factor", 0, 1, place));
   }
   if (pragma.name == "dependence") return dependence_call(pragma, place);
   if (pragma.name == "reset") return reset_call(pragma, place);
@@ -214,7 +236,7 @@ bool follow_marker(llvm::StringRef line, source_place& place) {
 pragma_rewrite rewrite_pragmas(const std::string& preprocessed) {
   pragma_rewrite result;
   result.source =
-      "extern \"C\" void __epiline_pragma_pipeline(int) noexcept; extern \"C\" void __epiline_pragma_unroll() "
+      "extern \"C\" void __epiline_pragma_pipeline(int) noexcept; extern \"C\" void __epiline_pragma_unroll(int) "
       "noexcept; "
       "extern \"C\" void __epiline_pragma_dependence(const void*, int) noexcept; "
       "extern \"C\" void __epiline_pragma_reset(const void*) noexcept; "
@@ -232,7 +254,8 @@ pragma_rewrite rewrite_pragmas(const std::string& preprocessed) {
         const pragma_line pragma = parse(text.drop_front(3));
         const source_place near = {shown_path(place.file), place.line};
         result.places[{place.file, place.line}] = llvm::StringRef(pragma.name).upper();
-        result.source += replacement(pragma, near, result.notes) + "\n";
+        for (const pragma_line& one : one_each(pragma, near)) result.source += replacement(one, near, result.notes);
+        result.source += '\n';
         ++place.line;
         continue;
       }

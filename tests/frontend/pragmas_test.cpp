@@ -36,7 +36,8 @@ TEST(pragmas, that_are_honoured_become_calls) {
       {"#pragma HLS PIPELINE II=3", "__epiline_pragma_pipeline(3);"},
       {"  #pragma  hls  pipeline ii = 2 ", "__epiline_pragma_pipeline(2);"},
       {"#pragma HLS PIPELINE off", ""},
-      {"#pragma HLS UNROLL", "__epiline_pragma_unroll();"},
+      {"#pragma HLS UNROLL", "__epiline_pragma_unroll(0);"},
+      {"#pragma HLS UNROLL factor=4 skip_exit_check", "__epiline_pragma_unroll(4);"},
       {"#pragma HLS ARRAY_PARTITION variable=x complete", "__epiline_pragma_partition((const void*)&(x), 1);"},
       {"#pragma HLS array_partition variable = x.y type=complete dim = 2",
        "__epiline_pragma_partition((const void*)&(x.y), 2);"},
@@ -57,6 +58,11 @@ TEST(pragmas, that_are_honoured_become_calls) {
       {"#pragma HLS UNROLL off", ""},
       // No code comes of it; clang says when there is no such parameter.
       {"#pragma HLS INTERFACE axis port=x", "(void)sizeof(x);"},
+      // Lists speak of each of their names.
+      {"#pragma HLS INTERFACE axis port = x, y", "(void)sizeof(x);(void)sizeof(y);"},
+      {"#pragma HLS INTERFACE axis port=x ,return", "(void)sizeof(x);"},
+      {"#pragma HLS ARRAY_PARTITION variable=x,t<1, 2>::y complete dim=0",
+       "__epiline_pragma_partition((const void*)&(x), 0);__epiline_pragma_partition((const void*)&(t<1,2>::y), 0);"},
   };
   for (const auto& [line, call] : cases) EXPECT_EQ(rewritten(line), call) << line;
 }
@@ -98,6 +104,8 @@ TEST(pragmas, that_cannot_be_honoured_are_refused_with_file_and_line) {
       {"#pragma HLS ARRAY_PARTITION variable=x type=all", "type=all: it is complete, cyclic or block"},
       {"#pragma HLS DEPENDENCE variable=x inter distance=0", "DISTANCE=0: give a number from 1 on"},
       {"#pragma HLS INTERFACE port=x", "INTERFACE without a mode"},
+      {"#pragma HLS INTERFACE axis port=x, ,y", "#pragma HLS INTERFACE: a name is missing in 'x,,y'"},
+      {"#pragma HLS STREAM variable=x, depth=4", "#pragma HLS STREAM: a name is missing in"},
   };
   for (const auto& [line, words] : cases) {
     const std::string refusal = refusal_of([&] { static_cast<void>(rewritten(line)); });
