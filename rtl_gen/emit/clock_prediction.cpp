@@ -245,7 +245,8 @@ class predictor {
   void follow_output(const output_fifo& f) {
     const dataflow::port& port = g_.ports[f.port];
     const double pointer = std::log2(f.depth);
-    const auto levels = [](double inputs) { return std::max(0.5, std::log2(std::max(inputs, 1.0)) / 2); };
+    // Whole LUTs: the last to arrive goes through all of them.
+    const auto levels = [](double inputs) { return std::ceil(std::log2(inputs) / 2); };
     const auto gates = [&](double count) { return chain{count * d_.lut, count, 0}; };
     const bool always = std::any_of(f.writes.begin(), f.writes.end(), [&](node_id id) {
       return g_.nodes[g_.nodes[id].operands[0]].kind == operation::constant;
@@ -282,12 +283,12 @@ class predictor {
 
 device_delays read_device_delays(const std::string& text) {
   const json all = json::parse(text, nullptr, false);
-  if (all.is_discarded() || !all.is_object() || all.value("schema", "") != "epiline-device-delays/1")
+  if (all.is_discarded() || !all.is_object() || all.value("schema", json()) != "epiline-device-delays/1")
     throw std::invalid_argument(
         "not a file of delays (schema epiline-device-delays/1): scripts/delay_fit.py makes one");
   device_delays found;
   for (const named_delay& one : named_delays) {
-    const json group = all.value(one.group, json::object());
+    const json group = all.value(one.group, json());
     if (!group.is_object() || !group.contains(one.name) || !group[one.name].is_number() || group[one.name] < 0.0)
       throw std::invalid_argument(fmt::format("{}.{}: a number of nanoseconds is missing", one.group, one.name));
     found.*one.value = group[one.name];
