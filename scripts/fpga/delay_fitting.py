@@ -1,0 +1,150 @@
+"""Fits the delays of rtl_gen/emit/device_delays.json to samples (timing_samples.py) of routed designs.
+
+Cells: the mean of what nextpnr's critical paths show. What a doubling of the readers costs, and how much longer the
+wires to block RAMs are: from wires that flip-flops drive. How long the wires of critical chains are, and how they grow
+with the design: by least squares of the relative errors of the predicted periods, since the longest wires are no
+typical ones. A period is predicted exactly as the compiler does it: the longest of the chains that its report lists.
+"""
+
+import collections
+import math
+import statistics
+
+from flow_error import flow_error
+
+cell_delays = (
+    "clock_to_out",
+    "lut",
+    "carry_entry",
+    "carry_bit",
+    "carry_exit",
+    "multiplier",
+    "distributed_read",
+    "block_clock_to_out",
+    "block_setup",
+    "setup",
+    "enable_setup",
+)
+fitted_to_periods = ("wire", "wire_by_side", "longest_by_side")
+fewest_designs = 3
+
+
+def routed_ns(sample):
+    """The period of the median seed."""
+    return 1000 / statistics.median(sample["mhz"].values())
+
+
+def predicted_ns(sample, wires):
+    side = sample["side"]
+    wire = wires["wire"] + wires["wire_by_side"] * side
+    longest = max(
+        chain["cells_ns"] + chain["wires"] * wire + chain["reader_doublings"] * wires["reader_doubling"]
+        for chain in sample["chains"]
+    )
+    return longest + wires["longest_by_side"] * side
+
+
+def cells_of(samples):
+    """{kind: (mean, fewest, most, count)} in ns; kinds that no path goes through are left out."""
+    all_ps = collections.defaultdict(collections.Counter)
+    for sample in samples:
+        for kind, delays in sample["cells_ps"].items():
+            all_ps[kind].update({int(ps): count for ps, count in delays.items()})
+    found = {}
+    for kind, delays in all_ps.items():
+        count = sum(delays.values())
+        mean = sum(ps * times for ps, times in delays.items()) / count
+        found[kind] = (mean / 1000, min(delays) / 1000, max(delays) / 1000, count)
+    return found
+
+
+def reader_doubling(samples):
+    """ns that a doubling of the readers adds: the common slope of the designs' mean wires over log2(readers)."""
+    above = below = 0.0
+    for sample in samples:
+        rows = [row for row in sample["wires"] if row["to"] == "flip-flop"]
+        count = sum(row["count"] for row in rows)
+        if not count:
+            continue
+        middle = sum(row["count"] * math.log2(row["readers"]) for row in rows) / count
+        mean = sum(row["count"] * row["mean_ns"] for row in rows) / count
+        for row in rows:
+            far = math.log2(row["readers"]) - middle
+            above += row["count"] * far * (row["mean_ns"] - mean)
+            below += row["count"] * far * far
+    return max(0.0, above / below) if below else 0.0
+
+
+def block_wire(samples, before):
+    """How many wires more a wire to a block RAM is, by the same design's wires to flip-flops."""
+    ratios = []
+    for sample in samples:
+        means = {}
+        for end in ("flip-flop", "block RAM"):
+            rows = [row for row in sample["wires"] if row["to"] == end]
+            count = sum(row["count"] for row in rows)
+            if count:
+                means[end] = sum(row["count"] * row["mean_ns"] for row in rows) / count
+        if len(means) == 2:
+            ratios.append(means["block RAM"] / means["flip-flop"] - 1)
+    return max(0.0, statistics.median(ratios)) if ratios else before
+
+
+def misfit(samples, wires):
+    return sum((predicted_ns(sample, wires) / routed_ns(sample) - 1) ** 2 for sample in samples)
+
+
+def search(samples, wires):
+    """The best values of what is fitted to the periods, by a pattern search from several starts."""
+    best = None
+    for start in ((0.5, 0.001, 0.005), (0.8, 0.0, 0.0), (0.3, 0.004, 0.0), (0.6, 0.0, 0.015)):
+        now = dict(wires, **dict(zip(fitted_to_periods, start)))
+        cost = misfit(samples, now)
+        step = dict(zip(fitted_to_periods, (0.1, 0.001, 0.004)))
+        while max(step[name] / scale for name, scale in zip(fitted_to_periods, (1, 0.01, 0.01))) > 1e-5:
+            moved = False
+            for name in fitted_to_periods:
+                for sign in (1, -1):
+                    other = dict(now, **{name: max(0.0, now[name] + sign * step[name])})
+                    if misfit(samples, other) < cost - 1e-12:
+                        now, cost, moved = other, misfit(samples, other), True
+            if not moved:
+                step = {name: size / 2 for name, size in step.items()}
+        if best is None or cost < best[0]:
+            best = (cost, now)
+    return best[1]
+
+
+def fit(samples, before):
+    """The file of delays that `samples` give; `before` (such a file) has what they do not show."""
+    if len(samples) < fewest_designs:
+        raise flow_error(f"{len(samples)} designs are too few to fit delays to: at least {fewest_designs}")
+    seen = cells_of(samples)
+    cells = dict(before["cells_ns"])
+    for kind in cell_delays:
+        if kind in seen:
+            cells[kind] = round(seen[kind][0], 4)
+    if "slice" in seen and "setup" in seen:  # the wire from a LUT to its own flip-flop belongs to the flip-flop
+        cells["setup"] = round(seen["setup"][0] + seen["slice"][0], 4)
+    wires = dict(
+        before["wires_ns"],
+        reader_doubling=round(reader_doubling(samples), 4),
+        block_wire=round(block_wire(samples, before["wires_ns"]["block_wire"]), 3),
+    )
+    wires = {name: round(value, 5) for name, value in search(samples, wires).items()}
+    return {
+        "schema": before["schema"],
+        "target": before["target"],
+        "cells_ns": {kind: cells[kind] for kind in cell_delays},
+        "wires_ns": wires,
+        "fitted_to": sorted(sample["name"] for sample in samples),
+    }
+
+
+def held_out(samples, before):
+    """{name: ns} predicted for each design by delays that were fitted to the others only."""
+    predicted = {}
+    for sample in samples:
+        others = [other for other in samples if other is not sample]
+        predicted[sample["name"]] = predicted_ns(sample, fit(others, before)["wires_ns"])
+    return predicted
