@@ -87,7 +87,6 @@ TEST(pragmas, that_have_no_effect_leave_a_note_with_file_and_line) {
 
 TEST(pragmas, that_cannot_be_honoured_are_refused_with_file_and_line) {
   const std::pair<const char*, const char*> cases[] = {
-      {"#pragma HLS UNROLL factor=4", "only full unrolling is supported"},
       {"#pragma HLS STREAM depth=4", "STREAM without variable=NAME"},
       {"#pragma HLS INTERFACE m_axi port=x", "#pragma HLS INTERFACE m_axi: only stream and scalar interfaces"},
       {"#pragma HLS INTERFACE mode=bram port=x", "#pragma HLS INTERFACE bram: only stream and scalar interfaces"},
