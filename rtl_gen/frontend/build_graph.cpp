@@ -687,6 +687,9 @@ class graph_builder {
       return nodes_.at(&at);
     }
     if (access_of(at) == access::memory_read) return memory_read(at);
+    // Where two ways meet, one of them from the function's entry: no step takes that one, the register begins with it.
+    if (const llvm::Constant* number = power_up_value(&at); number != nullptr && start_predecessor_ != nullptr)
+      return constant(llvm::cast<llvm::ConstantInt>(number)->getValue());
     const BasicBlock* block = at.getParent();
     const unsigned width = at.getType()->getIntegerBitWidth();
     if (access_of(at) == access::table) {

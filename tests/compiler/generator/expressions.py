@@ -118,6 +118,8 @@ class Expressions:
         r = self.r
         if depth <= 0:
             return self.leaf()
+        if self.small:
+            depth = 1
         kinds = [("arithmetic", 26), ("multiply", 6), ("bitwise", 12), ("shift", 10), ("divide", 4), ("ternary", 8),
                  ("cast", 8), ("range", 7), ("bit", 5), ("concat", 5), ("unary", 8), ("reduce", 2), ("c_int", 5),
                  ("table", 5 if self.tables else 0), ("helper", 5 if self.helpers else 0), ("compare", 4), ("leaf", 6)]

@@ -8,7 +8,7 @@ class Memories(Statements):
     # ---- loop-carried state -------------------------------------------------------------------------------------
     def make_states(self, static_allowed):
         r = self.r
-        for _ in range(r.randint(1, 4)):
+        for _ in range(r.randint(1, 2 if self.small else 4)):
             width, signed = self.any_type()
             recurrent = r.random() < 0.6
             if self.fast and recurrent:
@@ -62,7 +62,7 @@ class Memories(Statements):
     def make_tables(self):
         r = self.r
         out = []
-        for _ in range(r.choice([0, 0, 1, 1, 2])):
+        for _ in range(r.choice([0, 0, 0, 0, 1] if self.small else [0, 0, 1, 1, 2])):
             name = self.fresh("table")
             bits = r.randint(2, 6)
             if r.random() < 0.7:
@@ -102,7 +102,7 @@ class Memories(Statements):
     def make_helpers(self):
         """Functions, function templates and functors beside the top."""
         out = []
-        for _ in range(self.r.choice([0, 0, 1, 2])):
+        for _ in range(self.r.choice([0, 0, 0, 0, 1] if self.small else [0, 0, 1, 2])):
             name = self.fresh("helper")
             parameters = [self.any_type() for _ in range(self.r.randint(1, 3))]
             result = self.any_type()
