@@ -2,8 +2,8 @@
 // Executes a dataflow graph, iteration by iteration, bit by bit as graph.hpp defines it: the reference every pass and
 // every generated circuit is compared with, and an engine fast enough for whole frames.
 //
-// The constructor translates the graph into batches of equal instructions (no dispatch a node); a value of up to 64
-// bits is one 64-bit word, a wider one several words, low word first.
+// The constructor translates the graph into batches of equal instructions (translate.hpp; no dispatch a node); a value
+// of up to 64 bits is one 64-bit word, a wider one several words, low word first.
 //
 // Where graph.hpp leaves a value open: unspecified values are 0; a memory read past the end gives 0 and a write past
 // the end does nothing; when `distance` is 2 or more and was not promised by the source, a read of a word written less
@@ -18,10 +18,10 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "dataflow/graph.hpp"
+#include "dataflow/translate.hpp"
 
 namespace epiline::dataflow {
 
@@ -83,70 +83,6 @@ class interpreter {
   [[nodiscard]] std::string message() const;
 
  private:
-  // What a batch does. Operands of the first group have at most 64 bits.
-  enum class opcode : std::uint8_t {
-    add,
-    subtract,
-    multiply,
-    add_or_subtract,
-    divide_unsigned,
-    divide_signed,
-    remainder_unsigned,
-    remainder_signed,
-    bit_and,
-    bit_or,
-    bit_xor,
-    bit_not,
-    shift_left,
-    shift_right_logical,
-    shift_right_arithmetic,
-    equal,
-    less_unsigned,
-    less_signed,
-    select,
-    concat,
-    slice,
-    extend_sign,
-    table,
-    slice_of_wide,  // narrow result, wide operand
-    wide,           // anything else pure with a wide value
-    read,
-    memory_read,
-    memory_write,
-    count
-  };
-
-  /// Word offsets into values_ and shift counts; which fields mean something depends on the opcode.
-  struct instruction {
-    std::uint32_t result = 0, a = 0, b = 0, c = 0;
-    std::uint8_t result_shift = 0;   // 64 - width of the result
-    std::uint8_t operand_shift = 0;  // signed operations: 64 - width of the operand; concat, slice: bits to shift
-  };
-  struct batch {
-    opcode what;
-    std::uint32_t begin, end;  // in instructions_
-  };
-  struct location {  // of a value in values_
-    std::uint32_t offset;
-    unsigned width;
-  };
-  struct wide_instruction {
-    operation kind;
-    unsigned low;
-    location result;
-    std::vector<location> operands;
-    std::uint32_t table;
-  };
-  struct memory_access {
-    memory_id memory;
-    location address, data;  // data: the result of a read
-    std::uint32_t enable;
-  };
-  struct port_access {
-    port_id port;
-    std::uint32_t predicate;
-    location token;
-  };
   struct queue {
     std::vector<std::uint64_t> words;
     std::size_t head = 0;  // first word of the oldest token
@@ -178,16 +114,11 @@ class interpreter {
     location value;
     std::optional<llvm::APInt> initial;
   };
-  struct register_update {  // offsets of its value, next value and enable
-    std::uint32_t value, next, enable, words;
-  };
   struct undo_entry {
     memory_id memory;
     std::uint64_t address, stamp;
     std::size_t saved;  // offset in undo_words_
   };
-
-  struct translator;
 
   bool execute(const batch& b);  // false: blocked or broken
   void execute_wide(const wide_instruction& w);
@@ -202,22 +133,13 @@ class interpreter {
   void store(location where, const llvm::APInt& value);
   const port_state& checked_port(port_id port, bool input) const;
 
-  std::vector<std::uint64_t> values_;
-  std::vector<instruction> instructions_;
-  std::vector<batch> batches_;
-  std::vector<wide_instruction> wide_;
-  std::vector<memory_access> memory_accesses_;  // by instruction::a
-  std::vector<memory_access> late_writes_;      // no read of the same iteration follows them: done at its end
-  std::vector<port_access> reads_, writes_;
+  translation program_;
   std::vector<register_info> registers_;
-  std::vector<register_update> narrow_updates_, wide_updates_;  // of one word, of more
-  std::vector<std::uint64_t> staged_;                           // next values, while the old ones are still read
-  std::vector<std::pair<register_id, std::uint32_t>> patient_registers_;  // and their enables
+  std::vector<std::uint64_t> staged_;  // next values, while the old ones are still read
   std::vector<memory_state> memories_;
   std::vector<table_state> tables_;
   std::vector<port_state> ports_;
   std::vector<queue> queues_;
-  std::uint32_t patient_ = none;  // offset of the patient node's value
 
   std::vector<undo_entry> undo_;
   std::vector<std::uint64_t> undo_words_;
