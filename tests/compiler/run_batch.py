@@ -34,6 +34,14 @@ COMPILER_SECONDS = 60
 NATIVE_SECONDS = 120
 # Every so manieth random program is made with a schedule drawn at random from the legal ones.
 RANDOM_SCHEDULE_EVERY = 4
+# Every so manieth random program also goes through Icarus Verilog and the interpreter after each pass (--check), which takes
+# three times as long as all the rest.
+CHECK_EVERY, CHECK_LEVELS = 25, "passes,rtl-icarus"
+
+
+def seed_of(name):
+    """The seed of a random program; None for others."""
+    return int(name.split("_")[1]) if re.fullmatch(r"random_[0-9]+", name) else None
 
 
 class Batch:
@@ -44,6 +52,7 @@ class Batch:
         self.notes = []
         self.sources = {}  # name -> source file
         self.features = {}  # name -> what is in a random program
+        self.compiled_with = {}  # name -> options of epiline-hls
         self.started = time.monotonic()
         self.folder_of_headers = pathlib.Path(options.precompiled or self.work / "precompiled").resolve()
         if not options.graph_only:
@@ -171,8 +180,9 @@ class Batch:
         folder = self.work / "rtl" / name
         shutil.rmtree(folder, ignore_errors=True)
         schedule = []
-        if name.startswith("random_") and int(name.split("_")[1]) % RANDOM_SCHEDULE_EVERY == 0:
-            schedule = ["--schedule", "random", "--seed", name.split("_")[1]]
+        seed = seed_of(name)
+        if seed is not None and seed % RANDOM_SCHEDULE_EVERY == 0:
+            schedule = ["--schedule", "random", "--seed", str(seed)]
         text = ""
         for attempt in range(3):
             # Processor time: the machine may be busy with something else.
@@ -185,6 +195,7 @@ class Batch:
                 self.fail(name, "compiler", f"takes more than {COMPILER_SECONDS} s: {' '.join(command)}")
                 return None
             if run.returncode == 0:
+                self.compiled_with[name] = [*options, *schedule]
                 return name
             text = (run.stderr + run.stdout).strip()
             # A period that is too short: the compiler says which one would do, or how many clocks an iteration needs, and
@@ -271,7 +282,26 @@ class Batch:
         groups = [(i // size, names[i:i + size]) for i in range(0, len(names), size)]
         good = sum(self.parallel(self.check_group, groups), [])
         self.stage("simulated")
-        return good
+        every = [n for n in good if seed_of(n) is not None and seed_of(n) % CHECK_EVERY == 0]
+        bad = set() if self.options.graph_only else {n for n, is_good in zip(every, self.parallel(self.check_more, every))
+                                                     if not is_good}
+        if every:
+            self.stage(f"{len(every)} checked by {CHECK_LEVELS}")
+        return [n for n in good if n not in bad]
+
+    def check_more(self, name):
+        """Whether the program is equal at the levels that are too slow for each; with the tokens of its native run."""
+        folder = self.work / "check" / name
+        shutil.rmtree(folder, ignore_errors=True)
+        command = [self.options.compiler, str(self.sources[name]), "--top", name, "-o", str(folder),
+                   *self.compiled_with[name], "--check", "--levels", CHECK_LEVELS, "--stimulus",
+                   str(self.work / "tokens" / f"{name}.tokens")]
+        run = subprocess.run(command, capture_output=True, text=True, check=False)
+        if run.returncode == 0:
+            return True
+        text = (run.stderr + run.stdout).strip()
+        self.fail(name, "check", f"{text[:700]}\n    command: {' '.join(command)}")
+        return False
 
 
 def main():
