@@ -15,6 +15,7 @@ sys.path.insert(0, str(HERE))
 import fuzz  # noqa: E402
 import random_program  # noqa: E402
 import reduce_program  # noqa: E402
+import verilator_group  # noqa: E402
 
 # Every program equal but those whose seeds are given; a line in `calls` a batch.
 STAND_IN = """
@@ -127,6 +128,28 @@ class runs(unittest.TestCase):
                          "EPILINE_DRIVER(wrong_word) { wrong_word(); }\n")
         with self.assertRaises(SystemExit):
             reduce_program.keep(state / "failures" / "random_6", "wrong_word", tests)
+
+
+class groups(unittest.TestCase):
+    """A module's signals in the wide ports of a group."""
+
+    def test_every_signal_has_bits_of_its_own_and_every_other_bit_is_said_to_be_free(self):
+        words = verilator_group.Words("in_a")
+        self.assertEqual(words.take([("valid", 1, 0)], 1), (0, [".valid(in_a[0:0])"]))
+        # two fields of a token of 70 bits, with a gap between them
+        first, connections = words.take([("data", 33, 0), ("last", 1, 69)], 70)
+        self.assertEqual((first, connections), (1, [".data(in_a[64:32])", ".last(in_a[101:101])"]))
+        self.assertEqual(words.take([("ready", 1, 0)], 1)[0], 4)
+        self.assertEqual(words.bits(), 5 * 32)
+        taken = {0, *range(32, 65), 101, 128}
+        free = {bit for high, low in words.free() for bit in range(low, high + 1)}
+        self.assertEqual(free | taken, set(range(words.bits())))
+        self.assertEqual(free & taken, set())
+
+    def test_a_narrow_port_is_wide_enough_for_an_array_of_words(self):
+        words = verilator_group.Words("out_a")
+        words.take([("ready", 1, 0)], 1)
+        self.assertEqual(words.bits(), 96)
 
 
 class programs(unittest.TestCase):
