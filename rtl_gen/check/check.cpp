@@ -5,14 +5,16 @@
 #include <algorithm>
 #include <fstream>
 #include <optional>
-#include <ostream>
+#include <stdexcept>
 
 #include "check/files.hpp"
 #include "check/graph_level.hpp"
+#include "check/planted_fault.hpp"
 #include "check/program.hpp"
 #include "check/simulation.hpp"
 #include "check/software.hpp"
 #include "check/token_file.hpp"
+#include "check/verdicts.hpp"
 #include "dataflow/network_text.hpp"
 #include "frontend/parameter_members.hpp"
 
@@ -35,18 +37,6 @@ const std::vector<std::string>& sanitizer_options() {
   return options;
 }
 
-struct fault {
-  std::string level, from, to;
-};
-
-std::optional<fault> parse_fault(const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  const std::size_t first = text.find(':');
-  const std::size_t second = first == std::string::npos ? first : text.find(':', first + 1);
-  if (second == std::string::npos) throw std::invalid_argument("--fault: write LEVEL:FROM:TO");
-  return fault{text.substr(0, first), text.substr(first + 1, second - first - 1), text.substr(second + 1)};
-}
-
 }  // namespace
 
 const std::vector<std::string>& level_names() {
@@ -58,39 +48,14 @@ const std::vector<std::string>& level_names() {
 
 struct checker::state {
   state(options given, frontend::source_options source, std::ostream& to)
-      : wanted(std::move(given)), out(to), planted(parse_fault(wanted.fault)) {
+      : wanted(std::move(given)), table(to), planted(wanted.fault) {
     top.source = std::move(source);
     wanted.folder = fs::absolute(wanted.folder);
   }
 
-  // ---- the table ------------------------------------------------------------------------------------------------
-  bool wants(std::string_view level) const {
-    return wanted.levels.empty() || std::ranges::find(wanted.levels, level) != wanted.levels.end();
-  }
-  void row(std::string_view level, std::string_view verdict, const std::string& text) {
-    out << fmt::format("{:<16} {:<8} {}\n", level, verdict, text) << std::flush;
-  }
-  void equal(std::string_view level, const std::string& text) {
-    ++levels_run;
-    row(level, "equal", text);
-  }
-  void skip(std::string_view level, const std::string& why) {
-    ++levels_skipped;
-    row(level, "skipped", why);
-  }
-  /// `where` may be without a token.
-  void differ(std::string_view level, const std::string& text, const difference& where = {}) {
-    ++levels_run;
-    row(level, "DIFFERS", text);
-    if (!first_level.empty()) return;
-    first_level = level;
-    first_text = text;
-    first_where = where;
-  }
-
   /// "file:line: " of the write of the token that differs first.
   std::string first_place() {
-    if (first_where.port == dataflow::none) return {};
+    if (table.first_where().port == dataflow::none) return {};
     if (at_source.places.empty()) {
       // Only lowered IR tells from which of several lines a token comes, so it is run for that.
       std::string problem;
@@ -102,19 +67,14 @@ struct checker::state {
     }
     const auto& places = at_source.places;
     std::string place;
-    if (first_where.port < places.size() && first_where.token < places[first_where.port].size())
-      place = places[first_where.port][first_where.token];
-    if (place.empty()) place = write_place(network, first_where.port);
+    if (table.first_where().port < places.size() && table.first_where().token < places[table.first_where().port].size())
+      place = places[table.first_where().port][table.first_where().token];
+    if (place.empty()) place = write_place(network, table.first_where().port);
     return place.empty() ? place : place + ": ";
   }
 
-  /// The text of a level, with the fault that is planted in it for a test.
-  std::string text_of(const std::string& level, std::string text) {
-    if (!planted || planted->level != level) return text;
-    const std::size_t at = text.find(planted->from);
-    if (at == std::string::npos) return text;
-    fault_is_in = true;
-    return text.replace(at, planted->from.size(), planted->to);
+  bool wants(std::string_view level) const {
+    return wanted.levels.empty() || std::ranges::find(wanted.levels, level) != wanted.levels.end();
   }
 
   void write(const std::string& name, const std::string& text) const { write_file(wanted.folder / name, text); }
@@ -167,7 +127,7 @@ struct checker::state {
     std::optional<answer> first;
     for (const native& one : natives) {
       if (one.built.file.empty()) {
-        if (wants(one.level)) skip(one.level, one.built.problem);
+        if (wants(one.level)) table.skip(one.level, one.built.problem);
         continue;
       }
       if (first && !wants(one.level)) continue;
@@ -180,7 +140,7 @@ struct checker::state {
         take_reference(std::move(found), inputs, one.level);
         first.emplace();
       } else if (!problem.empty()) {
-        differ(one.level, problem);
+        table.differ(one.level, problem);
       } else {
         check_answer(one.level, at_source, found.outputs, fmt::format("{} calls", found.calls));
       }
@@ -202,11 +162,10 @@ struct checker::state {
     }
     at_source = make_reference(network, found, inputs, tolerance::none);
     at_iterations = make_reference(network, found, std::move(inputs), tolerance::iteration);
-    ++levels_run;
-    row(level, "run",
-        fmt::format("{} tokens in, {} out, {} call{}{}{}", in, given, found.calls, found.calls == 1 ? "" : "s",
-                    found.end == ending::blocked ? ", and the beginning of one more" : "",
-                    left == 0 ? "" : fmt::format("; {} tokens of the stimulus are never read", left)));
+    table.ran(level,
+              fmt::format("{} tokens in, {} out, {} call{}{}{}", in, given, found.calls, found.calls == 1 ? "" : "s",
+                          found.end == ending::blocked ? ", and the beginning of one more" : "",
+                          left == 0 ? "" : fmt::format("; {} tokens of the stimulus are never read", left)));
     if (given == 0)
       throw cannot_check(
           fmt::format("{}: error: nothing comes out with this stimulus, so nothing can be compared: give "
@@ -237,9 +196,9 @@ struct checker::state {
       std::string text = found.text;
       for (std::size_t at = text.find(", native "); at != std::string::npos; at = text.find(", native ", at + 1))
         text.replace(at, 9, ", the stimulus file says ");
-      differ("stimulus file", text, found);
+      table.differ("stimulus file", text, found);
     } else {
-      equal("stimulus file", "what it expects");
+      table.equal("stimulus file", "what it expects");
     }
   }
 
@@ -247,20 +206,20 @@ struct checker::state {
                     const std::string& remark) {
     const difference found = compare(network, with, outputs);
     if (found.text.empty())
-      equal(level, remark);
+      table.equal(level, remark);
     else
-      differ(level, found.text, found);
+      table.differ(level, found.text, found);
   }
 
   void run_ir() {
     if (wants("ir-source")) {
       top_parts parts = top;
-      parts.source_ir = text_of("ir-source", parts.source_ir);
+      parts.source_ir = planted.text_of("ir-source", parts.source_ir);
       run_program_level("ir-source", build_source_ir(parts, network, wanted.folder), at_source);
     }
     if (wants("ir-lowered")) {
       top_parts parts = top;
-      for (lowered_text& process : parts.processes) process.text = text_of("ir-lowered", process.text);
+      for (lowered_text& process : parts.processes) process.text = planted.text_of("ir-lowered", process.text);
       run_program_level("ir-lowered", build_lowered_ir(parts, network, wanted.folder, at_iterations), at_iterations);
     }
   }
@@ -269,7 +228,7 @@ struct checker::state {
     std::string problem = built.problem;
     answer found;
     if (problem.empty()) found = run(built, network, with.inputs, problem);
-    if (!problem.empty()) return differ(level, problem);
+    if (!problem.empty()) return table.differ(level, problem);
     if (std::string_view(level) == "ir-lowered") note_places(found);
     check_answer(level, with, found.outputs, "");
   }
@@ -292,8 +251,8 @@ struct checker::state {
   // ---- graphs -----------------------------------------------------------------------------------------------------
   /// A network as a level has it: of a fault that is planted, one line of its text differs.
   dataflow::network with_fault(const std::string& level, const dataflow::network& n) {
-    if (!planted || planted->level != level) return n;
-    return dataflow::parse_network(text_of(level, dataflow::print_design(n)));
+    if (!planted.is_for(level)) return n;
+    return dataflow::parse_network(planted.text_of(level, dataflow::print_design(n)));
   }
 
   void run_built_graph() {
@@ -312,9 +271,9 @@ struct checker::state {
     }
     if (!wants("graph")) return;
     if (found.problem.empty())
-      equal("graph", fmt::format("{} iterations", found.iterations));
+      table.equal("graph", fmt::format("{} iterations", found.iterations));
     else
-      differ("graph", found.problem, found.where);
+      table.differ("graph", found.problem, found.where);
   }
   bool is_endless() const { return at_source.may_give_more; }
 
@@ -328,7 +287,7 @@ struct checker::state {
     if (found.problem.empty()) return;
     pass_failed = true;
     const std::string which = network.processes.size() == 1 ? "" : " in process '" + after.name + "'";
-    differ("passes", fmt::format("after pass {} ({}){}: {}", passes, pass, which, found.problem), found.where);
+    table.differ("passes", fmt::format("after pass {} ({}){}: {}", passes, pass, which, found.problem), found.where);
   }
 
   // ---- circuits ---------------------------------------------------------------------------------------------------
@@ -342,9 +301,9 @@ struct checker::state {
                                                .patience = least_patience + std::min<std::uint64_t>(clocks, 1'000'000)},
                                               network, at_clocks);
     if (found.problem.empty())
-      equal(level, fmt::format("{} clocks, and with random pauses", found.clocks));
+      table.equal(level, fmt::format("{} clocks, and with random pauses", found.clocks));
     else
-      differ(level, found.problem, found.where);
+      table.differ(level, found.problem, found.where);
   }
 
   /// The simulator for levels that name none.
@@ -357,34 +316,34 @@ struct checker::state {
   void run_random_schedule(const std::string& text) {
     if (!wants("random-schedule")) return;
     const std::optional<simulator> with = any_simulator();
-    if (!with) return skip("random-schedule", missing_for(simulator::icarus));
-    write("random_schedule.v", text_of("random-schedule", text));
+    if (!with) return table.skip("random-schedule", missing_for(simulator::icarus));
+    write("random_schedule.v", planted.text_of("random-schedule", text));
     simulate_level("random-schedule", "random", *with, {"random_schedule.v"});
   }
 
   /// In Verilator: cells whose inputs are partly unknown have unknown outputs in Icarus, where the circuit's are not.
   void run_netlist() {
     if (!wants("netlist")) return;
-    if (const std::string lacks = missing_for(simulator::verilator); !lacks.empty()) return skip("netlist", lacks);
-    if (const std::string lacks = missing_for_synthesis(); !lacks.empty()) return skip("netlist", lacks);
+    if (const std::string lacks = missing_for(simulator::verilator); !lacks.empty())
+      return table.skip("netlist", lacks);
+    if (const std::string lacks = missing_for_synthesis(); !lacks.empty()) return table.skip("netlist", lacks);
     std::vector<std::string> files{"netlist.v"};
     std::vector<std::string> cells;
     write("rtl.v", verilog);
     if (const std::string problem = synthesize(wanted.folder, "rtl.v", network.name, wanted.target, "netlist.v", cells);
         !problem.empty())
-      return differ("netlist", problem);
-    if (planted && planted->level == "netlist") {
+      return table.differ("netlist", problem);
+    if (planted.is_for("netlist")) {
       std::ifstream in(wanted.folder / "netlist.v");
-      write("netlist.v", text_of("netlist", {std::istreambuf_iterator<char>(in), {}}));
+      write("netlist.v", planted.text_of("netlist", {std::istreambuf_iterator<char>(in), {}}));
     }
     files.insert(files.end(), cells.begin(), cells.end());
     simulate_level("netlist", "netlist", simulator::verilator, files);
   }
 
   options wanted;
-  std::ostream& out;
-  std::optional<fault> planted;
-  bool fault_is_in = false;
+  verdicts table;
+  planted_fault planted;
   top_parts top;
   dataflow::network network;  // before the passes: its ports are those of all levels
   std::vector<native> natives = {{"native-gcc", "g++", "g++", {}}, {"native-clang", EPILINE_CLANG, "clang-19", {}}};
@@ -396,9 +355,6 @@ struct checker::state {
   std::size_t passes = 0;
   bool pass_failed = false;
   std::string verilog;
-  std::size_t levels_run = 0, levels_skipped = 0;
-  std::string first_level, first_text;  // that differs; empty: none does
-  difference first_where;
 };
 
 checker::checker(options wanted, frontend::source_options source, std::ostream& out)
@@ -453,18 +409,18 @@ void checker::see_verilog(const dataflow::network& n, const std::string& verilog
   state& s = *state_;
   s.verilog = verilog;
   s.clocks = s.iterations * interval;
-  if (wants("passes") && !s.pass_failed) s.equal("passes", fmt::format("after each of {}", s.passes));
+  if (wants("passes") && !s.pass_failed) s.table.equal("passes", fmt::format("after each of {}", s.passes));
   if (wants("text")) {
     const std::string text = dataflow::print_design(n);
     try {
       const graph_verdict found =
-          run_graph(dataflow::parse_network(s.text_of("text", text)), s.at_clocks, 2 * s.iterations + 1000);
+          run_graph(dataflow::parse_network(s.planted.text_of("text", text)), s.at_clocks, 2 * s.iterations + 1000);
       if (found.problem.empty())
-        s.equal("text", "");
+        s.table.equal("text", "");
       else
-        s.differ("text", found.problem, found.where);
+        s.table.differ("text", found.problem, found.where);
     } catch (const dataflow::text_error& error) {
-      s.differ("text", error.what());
+      s.table.differ("text", error.what());
     }
   }
   for (const simulator one : {simulator::icarus, simulator::verilator}) {
@@ -472,11 +428,11 @@ void checker::see_verilog(const dataflow::network& n, const std::string& verilog
     const char* const level = is_icarus ? "rtl-icarus" : "rtl-verilator";
     if (!wants(level)) continue;
     if (const std::string lacks = missing_for(one); !lacks.empty()) {
-      s.skip(level, lacks);
+      s.table.skip(level, lacks);
       continue;
     }
     const std::string file = is_icarus ? "icarus.v" : "verilator.v";
-    s.write(file, s.text_of(level, verilog));
+    s.write(file, s.planted.text_of(level, verilog));
     s.simulate_level(level, is_icarus ? "icarus" : "verilator", one, {file});
   }
 }
@@ -487,13 +443,11 @@ void checker::see_random_schedule(const std::string& verilog) {
 
 std::string checker::finish() {
   state_->run_netlist();
-  if (state_->planted && !state_->fault_is_in)
-    throw cannot_check(
-        fmt::format("error: --fault: '{}' is not in level {}", state_->planted->from, state_->planted->level));
-  if (!state_->first_level.empty())
-    return fmt::format("{}error: level {} differs: {}", state_->first_place(), state_->first_level, state_->first_text);
-  state_->out << fmt::format("{} levels are equal{}\n", state_->levels_run,
-                             state_->levels_skipped == 0 ? "" : fmt::format(", {} skipped", state_->levels_skipped));
+  const verdicts& table = state_->table;
+  if (const std::string lacks = state_->planted.missing(); !lacks.empty()) throw cannot_check(lacks);
+  if (!table.first_level().empty())
+    return fmt::format("{}error: level {} differs: {}", state_->first_place(), table.first_level(), table.first_text());
+  state_->table.print_end();
   return {};
 }
 
