@@ -53,37 +53,12 @@ std::vector<std::string> build(const simulation_request& request, const std::str
     fs::remove_all(request.folder / (request.name + ".model"));
     // Verilator's own library is the same for all.
     const std::string cache = find_program("ccache") ? " OBJCACHE=ccache" : "";
-    words = {*find_program("verilator"),
-             "--cc",
-             "--exe",
-             "--build",
-             "--quiet-exit",
-             "--no-timing",
+    words = {*find_program("verilator"), "--cc", "--exe", "--build", "--quiet-exit", "--no-timing",
              // This optimisation of Verilator 5.006 gave wrong values for gates of a netlist (matrix_vector, generic).
-             "-fno-dfg",
-             "--x-assign",
-             "unique",
-             "--x-initial",
-             "unique",
-             "--noassert",
-             "--output-split",
-             "15000",
-             "-Wno-fatal",
-             "-Wno-lint",
-             "-Wno-style",
-             "-Wno-MODDUP",
-             "--top-module",
-             "epiline_check_bench",
-             "--prefix",
-             "Vbench",
-             "-MAKEFLAGS",
-             "OPT_FAST=-O1 OPT_SLOW=-O0 OPT_GLOBAL=-O1 VM_PARALLEL_BUILDS=1" + cache,
-             "--Mdir",
-             request.name + ".model",
-             "-o",
-             "bench",
-             bench,
-             request.name + "_main.cpp"};
+             "-fno-dfg", "--x-assign", "unique", "--x-initial", "unique", "--noassert", "--output-split", "15000",
+             "-Wno-fatal", "-Wno-lint", "-Wno-style", "-Wno-MODDUP", "--top-module", "epiline_check_bench", "--prefix",
+             "Vbench", "-MAKEFLAGS", "OPT_FAST=-O1 OPT_SLOW=-O0 OPT_GLOBAL=-O1 VM_PARALLEL_BUILDS=1" + cache, "--Mdir",
+             request.name + ".model", "-o", "bench", bench, request.name + "_main.cpp"};
     run = {(request.folder / (request.name + ".model") / "bench").string()};
   }
   words.insert(words.end(), request.verilog.begin(), request.verilog.end());
