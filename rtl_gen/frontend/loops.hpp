@@ -9,7 +9,8 @@ namespace epiline::frontend {
 ///   - a loop that accesses streams, has a run-time trip count or is marked PIPELINE stays a loop;
 ///   - a constant loop inside such a loop, or marked UNROLL, is unrolled fully;
 ///   - of a loop marked UNROLL factor=N, N passes become one;
-///   - a nest of constant loops outside of all others is unrolled when it is short; a loop around one that stays, stays.
+///   - a nest of constant loops outside of all others is unrolled when it is short; a loop around one that stays,
+///   stays.
 /// Refuses endless loops without stream access and UNROLL of loops whose trip count is not known.
 /// Returns the largest initiation interval that a PIPELINE pragma allows (1 without).
 /// `every_loop`: unroll outer constant loops as readily as inner ones.
