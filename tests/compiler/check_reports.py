@@ -2,9 +2,11 @@
 """The reports of all kernels: report.json obeys docs/report.schema.json, report.html is a page of its own, and --explain leads every name
 in the slowest chain to its line.
 
-  check_reports.py COMPILER
+  check_reports.py COMPILER [FOLDER]
 
-Besides, the schema must notice when a report changes: every field of a real report is removed, renamed and given another type in turn.
+FOLDER holds NAME/report.json and all else that COMPILER made of each kernel, as run_batch.py leaves it in its folder
+rtl; what is not there is compiled. Besides, the schema must notice when a report changes: every field of a real report is
+removed, renamed and given another type in turn.
 """
 
 import copy
@@ -16,8 +18,11 @@ import subprocess
 import sys
 import tempfile
 
+from kernel_options import options_of
+
 HERE = pathlib.Path(__file__).resolve().parent
 SCHEMA = HERE.parent.parent / "docs" / "report.schema.json"
+COMPILED_AGAIN = "arbiter"  # a small one
 VOID = {"meta", "br", "link", "img", "hr"}
 
 try:
@@ -145,9 +150,10 @@ def check_sharpness(validator, report):
 
 
 def main():
-    if len(sys.argv) != 2:
+    if len(sys.argv) not in (2, 3):
         sys.exit(__doc__.split("\n\n")[1])
     compiler = sys.argv[1]
+    made = pathlib.Path(sys.argv[2]) if len(sys.argv) == 3 else None
     schema = json.loads(SCHEMA.read_text(encoding="utf-8"))
     jsonschema.Draft202012Validator.check_schema(schema)
     validator = jsonschema.Draft202012Validator(schema)
@@ -156,20 +162,26 @@ def main():
     richest = {}
     with tempfile.TemporaryDirectory() as folder:
         for kernel in kernels:
-            out = pathlib.Path(folder) / kernel.stem
-
-            def compile_into(name, kernel=kernel):
-                subprocess.run([compiler, str(kernel), "--top", kernel.stem, "-o", str(name), "-q"],
-                               check=True, stderr=subprocess.DEVNULL)
+            def texts_of(name):
                 return [(name / f"report.{end}").read_text(encoding="utf-8") for end in ("json", "html", "txt")]
 
-            texts = compile_into(out)
+            def compile_into(name, kernel=kernel):
+                subprocess.run([compiler, str(kernel), "--top", kernel.stem, "-o", str(name), "-q", *options_of(kernel)],
+                               check=True, stderr=subprocess.DEVNULL)
+                return texts_of(name)
+
+            if made is not None and (made / kernel.stem / "report.json").is_file():
+                out = made / kernel.stem
+                texts = texts_of(out)
+            else:
+                out = pathlib.Path(folder) / kernel.stem
+                texts = compile_into(out)
             report = json.loads(texts[0])
             problems = [f"{'/'.join(map(str, e.absolute_path))}: {e.message[:200]}"
                         for e in validator.iter_errors(report)]
             problems += check_page(texts[1], report, kernel)
             problems += check_explained(compiler, out, report, kernel.stem)
-            if kernel is kernels[0] and compile_into(out.with_name("again")) != texts:
+            if kernel.stem == COMPILED_AGAIN and compile_into(pathlib.Path(folder) / "again") != texts:
                 problems.append("the reports differ from run to run")
             if problems:
                 failed += 1
