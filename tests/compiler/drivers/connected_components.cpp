@@ -23,7 +23,7 @@ EPILINE_DRIVER(connected_components) {
       image.push_back(int(beat.data));
       mask.push(beat);
     }
-    s.call({{"rows", rows}, {"cols", cols}});
+    s.call({{"rows", ap_uint<7>(rows)}, {"cols", ap_uint<7>(cols)}});
     connected_components(mask.stream, labels.stream, equivalences.stream, rows, cols);
 
     std::vector<int> component(image.size(), 0);

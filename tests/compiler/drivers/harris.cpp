@@ -39,7 +39,7 @@ EPILINE_DRIVER(harris) {
         wanted.push_back((xx * yy - xy * xy - ((xx + yy) * (xx + yy) >> 4)) >> 4);
       }
     }
-    s.call({{"width", width}, {"height", height}});
+    s.call({{"width", ap_uint<7>(width)}, {"height", ap_uint<7>(height)}});
     harris(image.stream, response.stream, width, height);
   }
   std::vector<long long> found;

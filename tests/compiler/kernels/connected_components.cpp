@@ -5,7 +5,7 @@
 #include "ap_int.h"
 #include "hls_stream.h"
 
-const int MAX_COLS = 64;
+const int MAX_COLS = 128;
 
 typedef ap_uint<10> label_t;
 
@@ -22,7 +22,7 @@ static label_t min_label(label_t a, label_t b) {
 }
 
 void connected_components(hls::stream<ap_axiu<1, 1, 1, 1>>& mask, hls::stream<label_t>& labels,
-                          hls::stream<equivalence_t>& equivalences, int rows, int cols) {
+                          hls::stream<equivalence_t>& equivalences, ap_uint<7> rows, ap_uint<7> cols) {
 #pragma HLS INTERFACE axis port = mask
 #pragma HLS INTERFACE axis port = labels
 #pragma HLS INTERFACE axis port = equivalences

@@ -3,7 +3,7 @@
 #include "ap_int.h"
 #include "hls_stream.h"
 
-#define MAX_WIDTH 64
+#define MAX_WIDTH 128
 
 typedef ap_uint<8> pixel_t;
 typedef ap_int<11> gradient_t;
@@ -50,7 +50,7 @@ struct neighborhood {
   }
 };
 
-static void sobel_stage(hls::stream<pixel_t>& in, hls::stream<gradients_t>& out, int width, int height) {
+static void sobel_stage(hls::stream<pixel_t>& in, hls::stream<gradients_t>& out, ap_uint<7> width, ap_uint<7> height) {
   neighborhood<pixel_t, 3> n;
 #pragma HLS ARRAY_PARTITION variable = n.lines complete dim = 1
 #pragma HLS ARRAY_PARTITION variable = n.window complete dim = 0
@@ -72,7 +72,8 @@ static void sobel_stage(hls::stream<pixel_t>& in, hls::stream<gradients_t>& out,
   }
 }
 
-static void tensor_stage(hls::stream<gradients_t>& in, hls::stream<tensor_t>& out, int width, int height) {
+static void tensor_stage(hls::stream<gradients_t>& in, hls::stream<tensor_t>& out, ap_uint<7> width,
+                         ap_uint<7> height) {
   for (int i = 0; i < width * height; i++) {
 #pragma HLS PIPELINE II = 1
     const gradients_t g = in.read();
@@ -84,7 +85,7 @@ static void tensor_stage(hls::stream<gradients_t>& in, hls::stream<tensor_t>& ou
   }
 }
 
-static void sum_stage(hls::stream<tensor_t>& in, hls::stream<sums_t>& out, int width, int height) {
+static void sum_stage(hls::stream<tensor_t>& in, hls::stream<sums_t>& out, ap_uint<7> width, ap_uint<7> height) {
   neighborhood<tensor_t, 3> n;
 #pragma HLS ARRAY_PARTITION variable = n.lines complete dim = 1
 #pragma HLS ARRAY_PARTITION variable = n.window complete dim = 0
@@ -106,7 +107,7 @@ static void sum_stage(hls::stream<tensor_t>& in, hls::stream<sums_t>& out, int w
   }
 }
 
-static void response_stage(hls::stream<sums_t>& in, hls::stream<response_t>& out, int width, int height) {
+static void response_stage(hls::stream<sums_t>& in, hls::stream<response_t>& out, ap_uint<7> width, ap_uint<7> height) {
   for (int i = 0; i < width * height; i++) {
 #pragma HLS PIPELINE II = 1
     const sums_t s = in.read();
@@ -117,7 +118,7 @@ static void response_stage(hls::stream<sums_t>& in, hls::stream<response_t>& out
   }
 }
 
-void harris(hls::stream<pixel_t>& image, hls::stream<response_t>& response, int width, int height) {
+void harris(hls::stream<pixel_t>& image, hls::stream<response_t>& response, ap_uint<7> width, ap_uint<7> height) {
 #pragma HLS INTERFACE axis port = image
 #pragma HLS INTERFACE axis port = response
 #pragma HLS INTERFACE s_axilite port = width
