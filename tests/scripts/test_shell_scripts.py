@@ -33,14 +33,14 @@ class every_script(unittest.TestCase):
                 self.assertEqual(os.access(script, os.X_OK), script.name != "common.sh")
 
     def test_unknown_arguments_are_refused(self):
-        for name in ("setup.sh", "test.sh", "demo.sh", "format.sh", "fpga_nightly.sh", "fuzz.sh"):
+        for name in ("setup.sh", "test.sh", "demo.sh", "format.sh", "fpga_nightly.sh", "fuzz.sh", "coverage.sh"):
             with self.subTest(name):
                 result = run(scripts / name, "--nonsense")
                 self.assertEqual(result.returncode, 1)
                 self.assertIn(f"{name}: error: unknown argument '--nonsense'", result.stderr)
 
     def test_help_says_how_to_call(self):
-        for name in ("setup.sh", "test.sh", "demo.sh", "fpga_nightly.sh", "fuzz.sh"):
+        for name in ("setup.sh", "test.sh", "demo.sh", "fpga_nightly.sh", "fuzz.sh", "coverage.sh"):
             with self.subTest(name):
                 result = run(scripts / name, "--help")
                 self.assertEqual(result.returncode, 0)
@@ -115,6 +115,57 @@ class setup(in_a_copy):
         self.stand_in("apt-get", "exit 100")
         result = run(self.root / "scripts/setup.sh", environment=self.environment)
         self.assertIn("setup.sh: error: 'apt-get update' failed", result.stderr)
+
+
+class coverage(in_a_copy):
+    def setUp(self):
+        super().setUp()
+        (self.root / "tests/emit").mkdir(parents=True)
+        (self.root / "tests/emit/CMakeLists.txt").touch()
+        (self.root / "build-coverage/bin").mkdir(parents=True)
+        for program in ("epiline-hls", "emit_test", "epiline"):
+            (self.root / "build-coverage/bin" / program).touch()
+        self.stand_in("cmake", f'echo "cmake $*" >> {self.root}/log')
+        self.stand_in("ctest", 'file=$(echo "$LLVM_PROFILE_FILE" | sed s/%4m/1/); touch "$file"')
+        self.stand_in("llvm-profdata-19", ":")
+        summary = '{"data": [{"totals": {"lines": {"count": 200, "percent": 95.5}}}]}'
+        self.stand_in("llvm-cov-19", f"echo \"llvm-cov $*\" >> {self.root}/log; echo '{summary}'")
+
+    def coverage(self, *arguments):
+        return run(self.root / "scripts/coverage.sh", *arguments, environment=self.environment)
+
+    def test_one_line_tells_the_share_of_lines(self):
+        result = self.coverage("emit")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("coverage of rtl_gen: 95.5 % of 200 lines (build-coverage/coverage/index.html)", result.stdout)
+        log = (self.root / "log").read_text()
+        self.assertIn("--target epiline-hls tests/emit/all", log)
+        # Programs without a part of the compiler have no counters: llvm-cov refuses them.
+        bin_folder = "build-coverage/bin"
+        self.assertIn(f"llvm-cov show {bin_folder}/emit_test -object {bin_folder}/epiline-hls -instr-profile", log)
+
+    def test_too_few_lines_are_an_error(self):
+        self.assertEqual(self.coverage("--least", "95", "emit").returncode, 0)
+        result = self.coverage("--least", "96", "--report")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("coverage.sh: error: less than 96 % of the lines of rtl_gen run", result.stderr)
+
+    def test_a_failing_test_leaves_no_figure(self):
+        self.stand_in("ctest", "exit 8")
+        result = self.coverage("emit")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("coverage.sh: error: tests of tests/emit fail", result.stderr)
+        self.assertNotIn("coverage of rtl_gen", result.stdout)
+
+    def test_a_report_needs_a_run(self):
+        result = self.coverage("--report")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("no test has run yet", result.stderr)
+
+    def test_an_unknown_folder_is_refused(self):
+        result = self.coverage("emitt")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("tests/emitt is no folder of tests", result.stderr)
 
 
 class configure(in_a_copy):
