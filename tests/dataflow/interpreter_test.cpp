@@ -279,6 +279,44 @@ TEST(interpreter, a_read_within_an_unpromised_distance_is_not_trusted) {
   EXPECT_EQ(run.pop_word(1), 0xfau);  // not 5
 }
 
+/// Writes iteration i's token to word i mod 4 and then, in the same iteration, reads that word.
+small_graph ring_read_after_write(unsigned distance, bool promised) {
+  small_graph s;
+  const node_id one = s.constant(1, 1);
+  const register_id at = s.add_register("at", 2, 0);
+  const node_id address = s.value_of(at), token = s.read("in", 8);
+  const memory_id m = s.add_memory("ring", 4, 8);
+  s.g.memories[m].distance = distance;
+  s.g.memories[m].distance_promised = promised;
+  s.make(operation::memory_write, 0, {address, token, one}, m);
+  s.write("out", s.make(operation::memory_read, 8, {address, one}, m));
+  s.update(at, s.make(operation::add, 2, {address, s.constant(2, 1)}));
+  return s;
+}
+
+TEST(interpreter, a_write_of_the_same_iteration_is_read_but_hides_no_earlier_one_from_the_promise) {
+  interpreter keeps(ring_read_after_write(4, true).g), breaks(ring_read_after_write(5, true).g);
+  interpreter unpromised(ring_read_after_write(5, false).g);
+  for (std::uint64_t i = 0; i < 8; ++i) {
+    keeps.push(0, 10 + i);
+    breaks.push(0, 10 + i);
+    unpromised.push(0, 10 + i);
+  }
+  EXPECT_EQ(keeps.run_until_blocked(100).iterations, 8u);
+  EXPECT_EQ(unpromised.run_until_blocked(100).iterations, 8u);
+  for (std::uint64_t i = 0; i < 8; ++i) {
+    EXPECT_EQ(keeps.pop_word(1), 10 + i);
+    EXPECT_EQ(unpromised.pop_word(1), 10 + i);
+  }
+  EXPECT_EQ(breaks.run_until_blocked(100).iterations, 4u);
+  EXPECT_EQ(
+      breaks.message(),
+      "iteration 4: memory 'ring' (small.cpp:7): word 0 is read 4 iterations after it was written, but the source "
+      "promises a distance of at least 5");
+  // Nothing has changed, also in the memory: the word that was written first is the earlier one again.
+  EXPECT_EQ(breaks.memory_word(0, 0), 10u);
+}
+
 TEST(interpreter, a_patient_register_updated_in_an_impatient_iteration_breaks_a_promise) {
   small_graph s;
   const node_id token = s.read("in", 1);
