@@ -14,6 +14,7 @@ keeps a design out of the fit and of its table, with the reason.
 
 import argparse
 import json
+import math
 import pathlib
 import re
 import statistics
@@ -33,7 +34,7 @@ Made by `scripts/delay_fit.py` from [results/timing](results/timing/), a file a 
 
 ## Predicted periods
 
-LFE5U-85F, speed grade 8, nextpnr 0.11.1 with the options of `scripts/fpga.sh`, the median of the seeds in brackets. *Scheduler*: the slowest chain in the delays that the scheduler decides by (`estimated_period_ns`). *Fitted*: the prediction in the delays that are built in, which were fitted to all these designs. *Held out*: the prediction in delays that were fitted to the other designs only, which is what a new design has to expect. All were placed with the scripts of commit 532f0b0, before `scripts/carry_chains.py`.
+LFE5U-85F, speed grade 8, nextpnr 0.11.1 with the options of `scripts/fpga.sh`, the median of the seeds in brackets. *Scheduler*: the slowest chain in the delays that the scheduler decides by (`estimated_period_ns`). *Fitted*: the prediction in the delays that are built in, which were fitted to all these designs. *Held out*: the prediction in delays that were fitted to the other designs only, which is what a new design has to expect. All were placed with the scripts of commit 532f0b0, before `scripts/carry_chains.py`. Which terms the prediction has was chosen with these designs in view; only the numbers are held out.
 
 """
 
@@ -57,7 +58,7 @@ Wires from flip-flops straight to flip-flops and RAMs, by how many of these one 
 constants_head = """
 ## Beside the scheduler's constants
 
-What `rtl_gen/schedule/delay_model.cpp` decides by, wires included, and the same in fitted delays for a small design (side 25) and a large one (side 190). The scheduler adds what many readers cost and leaves 15 % of the period to the wires (`calm_share`); the fitted delays have `longest_by_side` instead, once a chain.
+What `rtl_gen/schedule/delay_model.cpp` decides by, wires included, and the same in fitted delays for a small design (side 25) and a large one (side 190). The scheduler adds what many readers cost and leaves 15 % of the period to the wires (`calm_share`); the fitted delays have `side_doubling` instead, once a chain.
 
 """
 
@@ -135,7 +136,7 @@ def constants_table(delays, constants):
     cells, wires = delays["cells_ns"], delays["wires_ns"]
 
     def fitted(side):
-        wire = wires["wire"] + wires["wire_by_side"] * side
+        wire = wires["wire"]
         return {
             "launch": cells["clock_to_out"] + wire,
             "capture": cells["setup"],
@@ -147,7 +148,7 @@ def constants_table(delays, constants):
             "memory_setup": cells["block_setup"],
             "block_wire": wires["block_wire"] * wire,
             "spread_doubling": wires["reader_doubling"],
-            "longest wire, beyond the usual": wires["longest_by_side"] * side,
+            "longest wire, beyond the usual": wires["side_doubling"] * math.log2(side / delay_fitting.compact_side),
         }
 
     small, large = fitted(25), fitted(190)
@@ -168,11 +169,10 @@ def delays_text(samples, delays):
         rows.append([f"`{kind}`", f"{delays['cells_ns'][kind]:.3f}", spread, str(count)])
     text = cells_head + table(["cell", "ns>", "between", "seen>"], rows) + wires_head
     meaning = {
-        "wire": "ns, from a cell to the next in a very small design",
-        "wire_by_side": "ns, what that grows by with every cell of the side",
+        "wire": "ns, from a cell to the next",
         "reader_doubling": "ns for every doubling of the readers",
         "block_wire": "wires more than to a flip-flop, to or from a block RAM",
-        "longest_by_side": "ns for every cell of the side, once in a chain",
+        "side_doubling": f"ns for every doubling of the side beyond {delay_fitting.compact_side}, once in a chain",
     }
     text += table(["wire", "value>", ""], [[f"`{n}`", f"{delays['wires_ns'][n]:g}", m] for n, m in meaning.items()])
     text += readers_head

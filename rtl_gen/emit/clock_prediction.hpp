@@ -31,13 +31,16 @@ struct device_delays {
   double setup = 0;               // flip-flop's input, with the wire inside the slice
   double enable_setup = 0;        // flip-flop's clock enable or clear
   // Of wires. The side of a design is the square root of its logic cells (of its LUT4 or of its flip-flops, whichever
-  // is more): a wire that crosses the design is so many cells long.
-  double wire = 0;             // from one cell to the next, with one reader, in a very small design
-  double wire_by_side = 0;     // what that grows by with the side
+  // is more).
+  double wire = 0;             // from one cell to the next, with one reader
   double reader_doubling = 0;  // for every doubling of the readers
   double block_wire = 0;       // wires more than between two cells to or from a block RAM: they stand in few columns
-  double longest_by_side = 0;  // in every chain that becomes critical one wire is longer than usual
+  double side_doubling = 0;    // once in a chain, for every doubling of the side beyond compact_side: of all its chains
+                               // the placement of a large design leaves some with a long wire
 };
+
+/// The side, in logic cells, up to which a design is so small that no wire of it is long.
+inline constexpr double compact_side = 8;
 
 /// Of a file of delays: {"schema": "epiline-device-delays/1", "target", "cells_ns": {..}, "wires_ns": {..}}. Throws
 /// std::invalid_argument, saying what is wrong, for another text, a delay that is missing, or one below zero.

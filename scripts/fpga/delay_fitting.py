@@ -1,9 +1,8 @@
 """Fits the delays of rtl_gen/emit/device_delays.json to samples (timing_samples.py) of routed designs.
 
-Cells: the mean of what nextpnr's critical paths show. What a doubling of the readers costs, and how much longer the
-wires to block RAMs are: from wires that flip-flops drive. How long the wires of critical chains are, and how they grow
-with the design: by least squares of the relative errors of the predicted periods, since the longest wires are no
-typical ones. A period is predicted exactly as the compiler does it: the longest of the chains that its report lists.
+Cells: the mean of what nextpnr's critical paths show. How much longer the wires to block RAMs are: from wires that
+flip-flops drive. How long the wires of critical chains are, and how they grow with their readers and with the design:
+by least squares of the relative errors of the predicted periods, since the wires of critical chains are no typical ones. A period is predicted exactly as the compiler does it: the longest of the chains that its report lists.
 """
 
 import collections
@@ -25,7 +24,8 @@ cell_delays = (
     "setup",
     "enable_setup",
 )
-fitted_to_periods = ("wire", "wire_by_side", "longest_by_side")
+fitted_to_periods = {"wire": 0.1, "reader_doubling": 0.02, "side_doubling": 0.1}  # and the steps of the search
+compact_side = 8  # as in rtl_gen/emit/clock_prediction.hpp
 fewest_designs = 3
 
 
@@ -35,13 +35,11 @@ def routed_ns(sample):
 
 
 def predicted_ns(sample, wires):
-    side = sample["side"]
-    wire = wires["wire"] + wires["wire_by_side"] * side
     longest = max(
-        chain["cells_ns"] + chain["wires"] * wire + chain["reader_doublings"] * wires["reader_doubling"]
+        chain["cells_ns"] + chain["wires"] * wires["wire"] + chain["reader_doublings"] * wires["reader_doubling"]
         for chain in sample["chains"]
     )
-    return longest + wires["longest_by_side"] * side
+    return longest + wires["side_doubling"] * math.log2(max(1.0, sample["side"] / compact_side))
 
 
 def cells_of(samples):
@@ -56,23 +54,6 @@ def cells_of(samples):
         mean = sum(ps * times for ps, times in delays.items()) / count
         found[kind] = (mean / 1000, min(delays) / 1000, max(delays) / 1000, count)
     return found
-
-
-def reader_doubling(samples):
-    """ns that a doubling of the readers adds: the common slope of the designs' mean wires over log2(readers)."""
-    above = below = 0.0
-    for sample in samples:
-        rows = [row for row in sample["wires"] if row["to"] == "flip-flop"]
-        count = sum(row["count"] for row in rows)
-        if not count:
-            continue
-        middle = sum(row["count"] * math.log2(row["readers"]) for row in rows) / count
-        mean = sum(row["count"] * row["mean_ns"] for row in rows) / count
-        for row in rows:
-            far = math.log2(row["readers"]) - middle
-            above += row["count"] * far * (row["mean_ns"] - mean)
-            below += row["count"] * far * far
-    return max(0.0, above / below) if below else 0.0
 
 
 def block_wire(samples, before):
@@ -95,13 +76,13 @@ def misfit(samples, wires):
 
 
 def search(samples, wires):
-    """The best values of what is fitted to the periods, by a pattern search from several starts."""
+    """The best values of what is fitted to the periods, by a pattern search from two starts."""
     best = None
-    for start in ((0.5, 0.001, 0.005), (0.8, 0.0, 0.0), (0.3, 0.004, 0.0), (0.6, 0.0, 0.015)):
+    for start in ((0.5, 0.05, 0.5), (0.2, 0.1, 0.8)):
         now = dict(wires, **dict(zip(fitted_to_periods, start)))
         cost = misfit(samples, now)
-        step = dict(zip(fitted_to_periods, (0.1, 0.001, 0.004)))
-        while max(step[name] / scale for name, scale in zip(fitted_to_periods, (1, 0.01, 0.01))) > 1e-5:
+        step = dict(fitted_to_periods)
+        while max(step.values()) > 1e-5:
             moved = False
             for name in fitted_to_periods:
                 for sign in (1, -1):
@@ -128,7 +109,6 @@ def fit(samples, before):
         cells["setup"] = round(seen["setup"][0] + seen["slice"][0], 4)
     wires = dict(
         before["wires_ns"],
-        reader_doubling=round(reader_doubling(samples), 4),
         block_wire=round(block_wire(samples, before["wires_ns"]["block_wire"]), 3),
     )
     wires = {name: round(value, 5) for name, value in search(samples, wires).items()}

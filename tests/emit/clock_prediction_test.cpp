@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "dataflow/small_networks.hpp"
@@ -34,8 +35,7 @@ std::string file_with(Change change) {
   for (const char* name : {"clock_to_out", "lut", "carry_entry", "carry_bit", "carry_exit", "multiplier",
                            "distributed_read", "block_clock_to_out", "block_setup", "setup", "enable_setup"})
     all["cells_ns"][name] = 0.25;
-  for (const char* name : {"wire", "wire_by_side", "reader_doubling", "block_wire", "longest_by_side"})
-    all["wires_ns"][name] = 0.5;
+  for (const char* name : {"wire", "reader_doubling", "block_wire", "side_doubling"}) all["wires_ns"][name] = 0.5;
   change(all);
   return all.dump();
 }
@@ -50,7 +50,7 @@ TEST(clock_prediction, reads_a_file_of_delays) {
   const device_delays d = emit::read_device_delays(file_with([](json& all) { all["cells_ns"]["lut"] = 0.125; }));
   EXPECT_EQ(d.lut, 0.125);
   EXPECT_EQ(d.carry_exit, 0.25);
-  EXPECT_EQ(d.longest_by_side, 0.5);
+  EXPECT_EQ(d.side_doubling, 0.5);
 }
 
 TEST(clock_prediction, refuses_files_that_say_no_delays) {
@@ -83,8 +83,8 @@ TEST(clock_prediction, is_the_longest_of_its_chains) {
     const device_delays d = delays();
     const clock_prediction found = predict(g, d);
     const auto period = [&](const emit::timed_chain& c) {
-      return c.cells + c.wires * (d.wire + d.wire_by_side * found.side) + c.doublings * d.reader_doubling +
-             d.longest_by_side * found.side;
+      return c.cells + c.wires * d.wire + c.doublings * d.reader_doubling +
+             d.side_doubling * std::log2(std::max(1.0, found.side / emit::compact_side));
     };
     ASSERT_FALSE(found.chains.empty());
     double longest = 0;
@@ -99,10 +99,10 @@ TEST(clock_prediction, grows_with_the_design) {
   EXPECT_DOUBLE_EQ(design_size({100, 400}).side(), 20);
   EXPECT_DOUBLE_EQ(design_size({900, 400}).side(), 30);
   device_delays d = delays();
-  d.longest_by_side = 0.01;
-  d.wire_by_side = 0;
+  d.side_doubling = 0.5;
   const graph g = make_filter();
-  EXPECT_NEAR(predict(g, d, {10000, 0}).period - predict(g, d, {100, 0}).period, 0.9, 1e-9);
+  EXPECT_NEAR(predict(g, d, {10000, 0}).period - predict(g, d, {625, 0}).period, 1, 1e-9);
+  EXPECT_DOUBLE_EQ(predict(g, d, {64, 0}).period, predict(g, d, {1, 0}).period);
 }
 
 TEST(clock_prediction, grows_with_every_delay_on_the_chain) {
