@@ -6,11 +6,11 @@
 #include <llvm/IR/InstIterator.h>
 #include <llvm/IR/IntrinsicInst.h>
 #include <llvm/IR/Module.h>
-#include <llvm/Transforms/Utils/BasicBlockUtils.h>
 
 #include <algorithm>
 #include <set>
 
+#include "frontend/element_loop.hpp"
 #include "frontend/payload.hpp"
 #include "frontend/source.hpp"
 
@@ -196,21 +196,9 @@ class copy_loops {
              dimension + 1);
       return;
     }
-    llvm::BasicBlock* const before = builder_.GetInsertBlock();
-    llvm::BasicBlock* const after = llvm::SplitBlock(before, builder_.GetInsertPoint());
-    llvm::BasicBlock* const body = llvm::BasicBlock::Create(before->getContext(), "copy", before->getParent(), after);
-    before->getTerminator()->setSuccessor(0, body);
-    builder_.SetInsertPoint(body);
-    llvm::PHINode* const index = builder_.CreatePHI(builder_.getInt64Ty(), 2, "copy_index");
-    builder_.SetInsertPoint(builder_.CreateBr(after));
-    emit(type, element(&array, to, index), element(&array, from, index), offset, dimension + 1);
-    llvm::Instruction* const end = builder_.GetInsertBlock()->getTerminator();
-    llvm::Value* const next = builder_.CreateNUWAdd(index, builder_.getInt64(1));
-    builder_.CreateCondBr(builder_.CreateICmpEQ(next, builder_.getInt64(count)), after, body);
-    end->eraseFromParent();
-    index->addIncoming(builder_.getInt64(0), before);
-    index->addIncoming(next, builder_.GetInsertBlock());
-    builder_.SetInsertPoint(after, after->begin());
+    for_each_index(builder_, count, [&](llvm::Value* index) {
+      emit(type, element(&array, to, index), element(&array, from, index), offset, dimension + 1);
+    });
   }
 
   llvm::Value* element(llvm::Type* type, llvm::Value* base, llvm::Value* index) {

@@ -145,6 +145,12 @@ void check_local(const llvm::Value& variable, const llvm::Value& pointer, const 
 
 }  // namespace
 
+bool is_written_through(const llvm::Argument& pointer) {
+  pointer_walk walk;
+  walk.follow(&pointer);
+  return walk.first_write != nullptr;
+}
+
 std::map<const llvm::Value*, std::size_t> check_objects(const llvm::Function& top,
                                                         const std::vector<llvm::CallInst*>& calls,
                                                         const std::set<const llvm::Value*>& streams) {

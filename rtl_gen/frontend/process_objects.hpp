@@ -10,6 +10,9 @@
 
 namespace epiline::frontend {
 
+/// Whether a function, or what it calls, writes through a pointer that it is given.
+[[nodiscard]] bool is_written_through(const llvm::Argument& pointer);
+
 /// Looks at every variable that the processes, which are `calls` in `top`, are given by reference or use as a static or
 /// global one; `streams` are the objects that may be shared. Everything is inlined but these calls.
 /// Refuses a variable that one process writes and anybody else uses. Returns who writes the variables of the top.

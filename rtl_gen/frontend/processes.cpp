@@ -4,6 +4,7 @@
 #include <llvm/ADT/PostOrderIterator.h>
 #include <llvm/ADT/StringExtras.h>
 #include <llvm/BinaryFormat/Dwarf.h>
+#include <llvm/IR/DebugInfo.h>
 #include <llvm/IR/DebugInfoMetadata.h>
 #include <llvm/IR/IRBuilder.h>
 #include <llvm/IR/InstIterator.h>
@@ -20,6 +21,7 @@
 #include "frontend/loops.hpp"
 #include "frontend/pointer_choices.hpp"
 #include "frontend/process_objects.hpp"
+#include "frontend/shared_variables.hpp"
 #include "frontend/start_up.hpp"
 
 namespace epiline::frontend {
@@ -268,16 +270,36 @@ class splitter {
     find_streams();
     if (calls_.size() == 1 && result_.streams.empty()) return false;
     check_calls();
+    share_variables();
     for (const llvm::DILocalVariable* variable : declared_)
       if (std::none_of(objects_.begin(), objects_.end(),
                        [&](const stream_object& object) { return object.variable == variable; }))
         refuse(place_of(*variable),
                fmt::format("the stream '{}' is never read or written: remove it", variable->getName().str()));
-    writers_ = check_objects(process_, calls_, stream_objects());
+    std::set<const llvm::Value*> joined = stream_objects();
+    for (const shared_variable& one : shared_) joined.insert(one.slot);
+    writers_ = check_objects(process_, calls_, joined);
     return true;
   }
 
+  /// What processes give each other beside streams becomes streams.
+  void share_variables() {
+    shared_ = find_shared_variables(process_, calls_, keep_results(process_, calls_), stream_objects());
+    for (const shared_variable& one : shared_) {
+      std::string name = one.slot->getName().split('.').first.str();
+      source_place place = place_of(*calls_[one.writer]);
+      for (const llvm::DbgVariableRecord* record : llvm::findDVRDeclares(one.slot)) {
+        name = record->getVariable()->getName().str();
+        place = place_of(*record->getVariable());
+      }
+      shared_numbers_.push_back(result_.streams.size());
+      // What is given to an earlier call is for its next run, in a loop around the calls.
+      result_.streams.push_back({fresh(name, stream_names_), default_depth, false, one.reader < one.writer, place});
+    }
+  }
+
   void clean_up(llvm::Function& function) {
+    note_loops_of_pragmas(function);
     split_whole_structs(function);
     expand_copies(function, unknown_types::kept);
     managers_.function.invalidate(function, llvm::PreservedAnalyses::none());
@@ -323,9 +345,9 @@ class splitter {
              "functions that take them, one after another");
     for (const llvm::CallInst* call : calls_) {
       const std::string function = short_name(*call->getCalledFunction());
-      if (!call->getType()->isVoidTy())
-        refuse(place_of(*call), fmt::format("DATAFLOW: the process '{}' returns a value: a process returns void and "
-                                            "gives its results through an hls::stream",
+      if (!call->getType()->isVoidTy() && !call->getType()->isIntegerTy())
+        refuse(place_of(*call), fmt::format("DATAFLOW: the process '{}' returns a struct: a process returns an integer "
+                                            "or void, and gives its results through an hls::stream or by reference",
                                             function));
     }
     for (llvm::Instruction& instruction : llvm::instructions(process_))
@@ -453,6 +475,8 @@ class splitter {
         builder.CreateCall(
             mark, {builder.getInt32(static_cast<std::uint32_t>(object.numbers[i])),
                    builder.CreateConstInBoundsGEP1_64(builder.getInt8Ty(), object.object, object.streams[i].offset)});
+    for (std::size_t i = 0; i < shared_.size(); ++i)
+      builder.CreateCall(mark, {builder.getInt32(static_cast<std::uint32_t>(shared_numbers_[i])), shared_[i].channel});
   }
 
   /// The process that writes a result: the variable behind it is the one that begins unwritten.
@@ -472,8 +496,13 @@ class splitter {
     for (std::size_t i = 0; i < calls_.size(); ++i) {
       llvm::ValueToValueMapTy copies;
       std::unique_ptr<llvm::Module> module = llvm::CloneModule(module_, copies);
-      for (std::size_t other = 0; other < calls_.size(); ++other)
-        if (other != i) llvm::cast<llvm::CallInst>(copies[calls_[other]])->eraseFromParent();
+      pass_shared_variables(shared_, i, copies);
+      for (std::size_t other = 0; other < calls_.size(); ++other) {
+        if (other == i) continue;
+        auto* const call = llvm::cast<llvm::CallInst>(copies[calls_[other]]);
+        if (!call->getType()->isVoidTy()) call->replaceAllUsesWith(llvm::PoisonValue::get(call->getType()));
+        call->eraseFromParent();
+      }
       // A result that only the top itself computes is given by the first process.
       for (llvm::CallInst* call : calls_of(module_, "__epiline_result", &process_))
         if (writer_of(*call) != i) llvm::cast<llvm::CallInst>(copies[call])->eraseFromParent();
@@ -498,6 +527,8 @@ class splitter {
   std::vector<stream_object> objects_;
   std::set<std::string> stream_names_;
   std::map<const llvm::Value*, std::size_t> writers_;  // of variables: the process
+  std::vector<shared_variable> shared_;
+  std::vector<std::size_t> shared_numbers_;  // of their streams
 };
 
 }  // namespace
