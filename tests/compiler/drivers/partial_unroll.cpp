@@ -9,7 +9,7 @@ EPILINE_DRIVER(partial_unroll) {
   for (const int count : {0, 1, 3, 4, 5, 8, 61}) {
     std::vector<unsigned> values;
     for (int i = 0; i < 11; ++i) {
-      const ap_uint<8> value = i == 4 ? 3 : s.number(0, 120);
+      const ap_uint<8> value = i == 4 ? 3 : s.number(4, 120);
       in.push(value);
       if (i < 10) values.push_back(value.to_uint());
     }
