@@ -8,6 +8,7 @@
 #include <llvm/Analysis/ScalarEvolutionExpressions.h>
 #include <llvm/Analysis/SimplifyQuery.h>
 #include <llvm/Analysis/TargetTransformInfo.h>
+#include <llvm/IR/DebugInfoMetadata.h>
 #include <llvm/IR/Dominators.h>
 #include <llvm/IR/InstIterator.h>
 #include <llvm/IR/Instructions.h>
@@ -41,6 +42,22 @@ bool is_port_access(const llvm::Instruction& instruction) {
   return kind == access::read || kind == access::write;
 }
 
+constexpr const char* loop_of_pragma = "epiline.loop";
+
+/// Where the loop starts in the source, as clang notes it at the loop itself; null if that was lost.
+llvm::DILocation* start_in_source(const llvm::Loop& loop) {
+  const llvm::MDNode* const id = loop.getLoopID();
+  if (id == nullptr) return nullptr;
+  for (const llvm::MDOperand& operand : id->operands())
+    if (auto* place = llvm::dyn_cast_or_null<llvm::DILocation>(operand.get())) return place;
+  return nullptr;
+}
+
+/// Inlining changes where a place was inlined, nothing else.
+bool is_same_place(const llvm::DILocation& a, const llvm::DILocation& b) {
+  return a.getLine() == b.getLine() && a.getColumn() == b.getColumn() && a.getScope() == b.getScope();
+}
+
 /// A loop is named by its header: blocks stay while loops come and go.
 struct loop_marks {
   std::set<const llvm::BasicBlock*> pipelined;
@@ -61,6 +78,12 @@ loop_marks take_pragmas(llvm::Function& function, const llvm::LoopInfo& loops) {
   for (llvm::CallInst* call : calls) {
     const llvm::Loop* loop = loops.getLoopFor(call->getParent());
     const bool pipeline = call->getCalledFunction()->getName() == "__epiline_pragma_pipeline";
+    const auto* const noted = llvm::dyn_cast_or_null<llvm::DILocation>(call->getMetadata(loop_of_pragma));
+    const llvm::DILocation* const start = loop == nullptr ? nullptr : start_in_source(*loop);
+    if (!pipeline && noted != nullptr && start != nullptr && !is_same_place(*start, *noted)) {
+      call->eraseFromParent();  // a loop of one pass, which is there no more
+      continue;
+    }
     // The outermost loop is the one that calls the top for ever: a pragma there is about the function as a whole.
     if (loop != nullptr && loop->getLoopDepth() > 1) {
       if (pipeline)
@@ -216,6 +239,19 @@ class unroller {
 };
 
 }  // namespace
+
+void note_loops_of_pragmas(llvm::Function& function) {
+  const llvm::DominatorTree dominators(function);
+  const llvm::LoopInfo loops(dominators);
+  for (llvm::Instruction& instruction : llvm::instructions(function)) {
+    const auto* call = llvm::dyn_cast<llvm::CallInst>(&instruction);
+    if (call == nullptr || call->getCalledFunction() == nullptr ||
+        call->getCalledFunction()->getName() != "__epiline_pragma_unroll" || call->hasMetadata(loop_of_pragma))
+      continue;
+    if (const llvm::Loop* const loop = loops.getLoopFor(call->getParent()))
+      if (llvm::DILocation* const start = start_in_source(*loop)) instruction.setMetadata(loop_of_pragma, start);
+  }
+}
 
 unsigned unroll_loops(llvm::Function& function, llvm::FunctionAnalysisManager& analyses, bool every_loop) {
   return unroller(function, analyses).run(every_loop);

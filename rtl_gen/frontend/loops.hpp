@@ -5,6 +5,10 @@
 
 namespace epiline::frontend {
 
+/// Notes at every UNROLL pragma call which loop it stands in: the optimiser takes loops away that never come to a
+/// second pass, and the pragma must not pass to the loop around. Before any of LLVM's passes.
+void note_loops_of_pragmas(llvm::Function& function);
+
 /// Takes the PIPELINE and UNROLL pragma calls out of the function and unrolls loops:
 ///   - a loop that accesses streams, has a run-time trip count or is marked PIPELINE stays a loop;
 ///   - a constant loop inside such a loop, or marked UNROLL, is unrolled fully;

@@ -402,6 +402,7 @@ lowered_process lower(process_source& source) {
     if (&function != &process && !function.isDeclaration()) function.deleteBody();
   managers.function.clear();
 
+  note_loops_of_pragmas(process);
   split_whole_structs(process);
   expand_copies(process, unknown_types::kept);
   resolve_pointer_choices(process);
