@@ -17,10 +17,9 @@ TEST(messages, keep_line_text_and_excerpt_and_lose_the_rest) {
 }
 
 TEST(messages, say_what_to_do) {
-  EXPECT_EQ(
-      explain_messages("/k/fir.cpp:1:10: fatal error: 'ap_fixed.h' file not found\n", {}),
-      "/k/fir.cpp:1: error: 'ap_fixed.h' file not found: fixed point is not supported: use ap_int and ap_uint, and "
-      "shift by the number of fraction bits");
+  EXPECT_EQ(explain_messages("/k/fir.cpp:1:10: fatal error: 'hls_math.h' file not found\n", {}),
+            "/k/fir.cpp:1: error: 'hls_math.h' file not found: mathematical functions are not supported: use integer "
+            "arithmetic, or a constexpr table");
   EXPECT_EQ(explain_messages("/k/fir.cpp:1:10: fatal error: 'other.h' file not found\n", {}),
             "/k/fir.cpp:1: error: 'other.h' file not found: name its folder with -I");
 }

@@ -2,6 +2,5 @@
 #include "hls_stream.h"
 
 void fixed_point_at_run_time(hls::stream<int>& in, hls::stream<ap_fixed<16, 8>>& out) {
-  const double value = in.read() * 0.5;  // refused: floating point
-  out.write(ap_fixed<16, 8>(value));
+  out.write(ap_fixed<16, 8>(in.read() * 0.5));  // refused: floating point
 }
