@@ -11,29 +11,13 @@ left open: no cell stands after it. That comes last, since the Verilog of a netl
 Changes the file in place and prints what it did.
 """
 
-import collections
-import json
-import pathlib
 import sys
 
-from whole_file import write_whole
+from netlist_file import change_netlist, find_readers
 
 OPEN = ["x"]
 # A bit that hands its input A on as carry, whatever carry comes in: nothing propagates (C and D are set), A generates.
 CARRY_OF_A = {"INIT": format(0x000A, "016b"), "INJECT": "NO", "B": ["0"], "C": ["1"], "D": ["1"]}
-
-
-def count_readers(module):
-    """Per net the number of inputs and ports that it drives."""
-    readers = collections.Counter()
-    for cell in module["cells"].values():
-        for port, bits in cell["connections"].items():
-            if cell["port_directions"][port] != "output":
-                readers.update(bits)
-    for port in module["ports"].values():
-        if port["direction"] != "input":
-            readers.update(port["bits"])
-    return readers
 
 
 def find_chains(module):
@@ -71,12 +55,12 @@ def set_bits(chain, bits):
 
 def begin_in_themselves(module):
     """Returns how many chains now do."""
-    readers = count_readers(module)
+    readers = find_readers(module)
     changed = 0
     for chain in find_chains(module):
         carry, end = chain[0]["connections"]["CIN"], chain[-1]["connections"]
         between = [cell["connections"]["COUT"][0] for cell in chain[:-1]]
-        if carry == OPEN or readers[end["COUT"][0]] or readers[end["S1"][0]] or any(readers[net] > 1 for net in between):
+        if carry == OPEN or readers[end["COUT"][0]] or readers[end["S1"][0]] or any(len(readers[net]) > 1 for net in between):
             continue
         bits = list(bits_of(chain))
         unused = bits.pop()["S"]  # becomes the first bit's sum
@@ -88,7 +72,7 @@ def begin_in_themselves(module):
 
 def open_ends(module):
     """Returns how many ends were left open."""
-    readers = count_readers(module)
+    readers = find_readers(module)
     opened = 0
     for chain in find_chains(module):
         end = chain[-1]["connections"]
@@ -105,14 +89,7 @@ def main():
     if not arguments or step is None or arguments[-1].startswith("-"):
         sys.exit(__doc__.split("\n\n")[1])
     change, text = step
-    file = pathlib.Path(arguments[-1])
-    try:
-        netlist = json.loads(file.read_text(encoding="utf-8"))
-        changed = sum(change(module) for module in netlist["modules"].values())
-    except (OSError, ValueError, KeyError, AttributeError, IndexError, TypeError) as error:
-        sys.exit(f"carry_chains.py: error: {file} is not a netlist that Yosys wrote ({error!r})")
-    write_whole(file, json.dumps(netlist, indent=1))
-    print(f"{changed} {text}")
+    print(f"{change_netlist(arguments[-1], change)} {text}")
 
 
 if __name__ == "__main__":

@@ -26,7 +26,8 @@ sys.path.insert(0, str(root / "scripts" / "fpga"))
 import delay_fitting  # noqa: E402  scripts/fpga
 import timing_samples  # noqa: E402  scripts/fpga
 from flow_error import flow_error  # noqa: E402  scripts/fpga
-from whole_file import write_whole  # noqa: E402
+from results_table import table  # noqa: E402
+from whole_file import holds, write_whole  # noqa: E402
 
 head = """# The clock: predicted and reached
 
@@ -68,13 +69,6 @@ improvements_head = """
 The compiler's work on place and route, measured: *before* is the compiler of commit 9fff40b, the last one before it; *after* that of the published runs. The same source, the same Yosys and nextpnr, the same options and seeds; MHz is the median. Where a text stands instead, what is known is older: sizes by Debian's Yosys 0.23, one placement.
 
 """
-
-
-def table(header, rows):
-    """Columns whose header ends in `>` are numbers."""
-    lines = ["| " + " | ".join(cell.rstrip(">") for cell in header) + " |"]
-    lines.append("|" + "|".join("---:" if cell.endswith(">") else "---" for cell in header) + "|")
-    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
 
 
 def off(predicted, routed):
@@ -260,7 +254,7 @@ def main(arguments):
             if not options.check:
                 write_whole(file, text)
                 print(f"wrote {file}")
-            elif not file.is_file() or file.read_text(encoding="utf-8") != text:
+            elif not holds(file, text):
                 raise flow_error(f"{file} is not what {options.samples} gives: run scripts/delay_fit.py")
     except KeyError as error:
         print(f"delay_fit.py: error: a sample has no key {error}", file=sys.stderr)

@@ -8,12 +8,9 @@ flip-flop's time. A register is moved when every used output bit of a port leads
 that flip-flop has the RAM's clock and neither enable nor reset. Changes the file in place and prints what it did.
 """
 
-import collections
-import json
-import pathlib
 import sys
 
-from whole_file import write_whole
+from netlist_file import change_netlist, find_readers
 
 
 def is_plain_flip_flop(cell, clock):
@@ -27,22 +24,6 @@ def is_plain_flip_flop(cell, clock):
             and parameters.get("REGSET", "RESET") == "RESET"
             and parameters.get("CLKMUX", "CLK") == "CLK"
             and connections["CLK"] == clock)
-
-
-def find_readers(module):
-    """Per net: the cells' inputs that it drives, and None for a port of the module."""
-    readers = collections.defaultdict(list)
-    for name, cell in module["cells"].items():
-        for port, bits in cell["connections"].items():
-            if cell["port_directions"][port] == "output":
-                continue
-            for bit in bits:
-                readers[bit].append((name, port))
-    for port in module["ports"].values():
-        if port["direction"] != "input":
-            for bit in port["bits"]:
-                readers[bit].append((None, None))
-    return readers
 
 
 def move_registers(module):
@@ -77,14 +58,7 @@ def move_registers(module):
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__.split("\n\n")[1])
-    file = pathlib.Path(sys.argv[1])
-    try:
-        netlist = json.loads(file.read_text(encoding="utf-8"))
-        moved = sum(move_registers(module) for module in netlist["modules"].values())
-    except (OSError, ValueError, KeyError, AttributeError) as error:
-        sys.exit(f"ram_output_registers.py: error: {file} is not a netlist that Yosys wrote ({error!r})")
-    write_whole(file, json.dumps(netlist, indent=1))
-    print(f"{moved} flip-flops moved into block RAMs")
+    print(f"{change_netlist(sys.argv[1], move_registers)} flip-flops moved into block RAMs")
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ import json
 import pathlib
 import sys
 
-from whole_file import write_whole
+from whole_file import holds, write_whole
 
 root = pathlib.Path(__file__).resolve().parent.parent
 run_schema = "epiline-fpga/1"
@@ -253,7 +253,7 @@ def main(arguments):
     try:
         text = make_text(options.results)
         if options.check:
-            if not options.output.is_file() or options.output.read_text(encoding="utf-8") != text:
+            if not holds(options.output, text):
                 raise table_error(f"{options.output} is not what {options.results} gives: run scripts/results_table.py")
             return 0
         write_whole(options.output, text)

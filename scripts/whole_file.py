@@ -11,3 +11,8 @@ def write_whole(path, text):
         temporary.replace(path)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def holds(path, text):
+    """Whether `path` is a file with just this text: what was made from other files is not older than they are."""
+    return path.is_file() and path.read_text(encoding="utf-8") == text

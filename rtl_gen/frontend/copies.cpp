@@ -212,21 +212,10 @@ class copy_loops {
   llvm::IRBuilder<> builder_;
 };
 
-std::uint64_t scalars_in(llvm::Type* type) {
-  if (auto* array = llvm::dyn_cast<llvm::ArrayType>(type))
-    return array->getNumElements() * scalars_in(array->getElementType());
-  if (auto* structure = llvm::dyn_cast<llvm::StructType>(type)) {
-    std::uint64_t sum = 0;
-    for (llvm::Type* member : structure->elements()) sum += scalars_in(member);
-    return sum;
-  }
-  return 1;
-}
-
 /// Whether a copy of so much, of or into memories, is to be a loop. The two must not overlap: a loop writes before it
 /// has read all.
 bool is_for_loops(llvm::MemIntrinsic& copy, llvm::Type* type, const object_uses& uses, const llvm::DataLayout& layout) {
-  if (scalars_in(type) <= longest_unrolled) return false;
+  if (sum_of_scalars(type, [](llvm::Type*) { return 1; }) <= longest_unrolled) return false;
   const auto* transfer = llvm::dyn_cast<llvm::MemTransferInst>(&copy);
   if (transfer == nullptr) return uses.indexed_at_run_time;
   const bool may_overlap =

@@ -163,6 +163,17 @@ llvm::Value* address_of(llvm::IRBuilderBase& builder, llvm::Value* pointer, llvm
 
 }  // namespace
 
+std::uint64_t sum_of_scalars(llvm::Type* type, llvm::function_ref<std::uint64_t(llvm::Type*)> of) {
+  if (auto* array = llvm::dyn_cast<llvm::ArrayType>(type))
+    return array->getNumElements() * sum_of_scalars(array->getElementType(), of);
+  if (auto* structure = llvm::dyn_cast<llvm::StructType>(type)) {
+    std::uint64_t sum = 0;
+    for (llvm::Type* member : structure->elements()) sum += sum_of_scalars(member, of);
+    return sum;
+  }
+  return of(type);
+}
+
 bool is_padding(const llvm::StructType& structure, unsigned index, const llvm::DataLayout& layout) {
   auto* bytes = llvm::dyn_cast<llvm::ArrayType>(structure.getElementType(index));
   return bytes != nullptr && bytes->getElementType()->isIntegerTy(8) &&

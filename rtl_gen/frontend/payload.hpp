@@ -1,10 +1,12 @@
 #pragma once
 // How a C++ value travels as a token: its leaves side by side, the first member in the low bits.
 
+#include <llvm/ADT/STLFunctionalExtras.h>
 #include <llvm/IR/DataLayout.h>
 #include <llvm/IR/IRBuilder.h>
 #include <llvm/IR/Module.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,9 @@ struct leaf {
 /// Recognises { storage, [0 x [W x i8|i16]] }, the layout of ap_uint<W>/ap_int<W> in the synthesis build.
 /// Returns whether `type` has it, and then the width and sign.
 bool is_arbitrary_precision(llvm::Type* type, unsigned& width, bool& is_signed);
+
+/// The sum of `of` over the scalars that a type is made of, of an array every element.
+[[nodiscard]] std::uint64_t sum_of_scalars(llvm::Type* type, llvm::function_ref<std::uint64_t(llvm::Type*)> of);
 
 /// Whether element `index` fills a gap: clang writes the gaps of a struct that mixes C integers with ap types as
 /// explicit byte arrays.

@@ -11,6 +11,7 @@
 #include <algorithm>
 
 #include "frontend/element_loop.hpp"
+#include "frontend/payload.hpp"
 #include "frontend/process_objects.hpp"
 
 namespace epiline::frontend {
@@ -20,14 +21,9 @@ namespace {
 constexpr std::uint64_t widest_token = 512;  // bits of a variable, or of an array's element, that travel in one clock
 
 std::uint64_t bits_of(llvm::Type* type) {
-  if (auto* array = llvm::dyn_cast<llvm::ArrayType>(type))
-    return array->getNumElements() * bits_of(array->getElementType());
-  if (auto* structure = llvm::dyn_cast<llvm::StructType>(type)) {
-    std::uint64_t sum = 0;
-    for (llvm::Type* member : structure->elements()) sum += bits_of(member);
-    return sum;
-  }
-  return type->isIntegerTy() ? type->getIntegerBitWidth() : 2 * widest_token;  // nothing else can be sent
+  return sum_of_scalars(type, [](llvm::Type* scalar) -> std::uint64_t {
+    return scalar->isIntegerTy() ? scalar->getIntegerBitWidth() : 2 * widest_token;  // nothing else can be sent
+  });
 }
 
 /// What travels at once; null: the variable cannot be sent.

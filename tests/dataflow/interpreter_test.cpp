@@ -233,7 +233,8 @@ TEST(interpreter, runs_until_a_port_is_empty_or_the_limit_is_reached) {
   EXPECT_EQ(run.pop(1), std::nullopt);
 }
 
-/// Writes iteration i's token to word i mod 4 and reads the word written `back` iterations ago.
+/// Writes iteration i's token to word i mod 4 and reads the word written `back` iterations ago: 0 is the one written in
+/// this iteration, read after it is written; every other is read before.
 small_graph ring_of_four(unsigned back, unsigned distance, bool promised) {
   small_graph s;
   const node_id one = s.constant(1, 1);
@@ -243,8 +244,10 @@ small_graph ring_of_four(unsigned back, unsigned distance, bool promised) {
   s.g.memories[m].distance = distance;
   s.g.memories[m].distance_promised = promised;
   const node_id old = s.make(operation::subtract, 2, {address, s.constant(2, back)});
+  const auto write = [&] { s.make(operation::memory_write, 0, {address, token, one}, m); };
+  if (back == 0) write();
   s.write("out", s.make(operation::memory_read, 8, {old, one}, m));
-  s.make(operation::memory_write, 0, {address, token, one}, m);
+  if (back != 0) write();
   s.update(at, s.make(operation::add, 2, {address, s.constant(2, 1)}));
   return s;
 }
@@ -279,24 +282,9 @@ TEST(interpreter, a_read_within_an_unpromised_distance_is_not_trusted) {
   EXPECT_EQ(run.pop_word(1), 0xfau);  // not 5
 }
 
-/// Writes iteration i's token to word i mod 4 and then, in the same iteration, reads that word.
-small_graph ring_read_after_write(unsigned distance, bool promised) {
-  small_graph s;
-  const node_id one = s.constant(1, 1);
-  const register_id at = s.add_register("at", 2, 0);
-  const node_id address = s.value_of(at), token = s.read("in", 8);
-  const memory_id m = s.add_memory("ring", 4, 8);
-  s.g.memories[m].distance = distance;
-  s.g.memories[m].distance_promised = promised;
-  s.make(operation::memory_write, 0, {address, token, one}, m);
-  s.write("out", s.make(operation::memory_read, 8, {address, one}, m));
-  s.update(at, s.make(operation::add, 2, {address, s.constant(2, 1)}));
-  return s;
-}
-
 TEST(interpreter, a_write_of_the_same_iteration_is_read_but_hides_no_earlier_one_from_the_promise) {
-  interpreter keeps(ring_read_after_write(4, true).g), breaks(ring_read_after_write(5, true).g);
-  interpreter unpromised(ring_read_after_write(5, false).g);
+  interpreter keeps(ring_of_four(0, 4, true).g), breaks(ring_of_four(0, 5, true).g);
+  interpreter unpromised(ring_of_four(0, 5, false).g);
   for (std::uint64_t i = 0; i < 8; ++i) {
     keeps.push(0, 10 + i);
     breaks.push(0, 10 + i);
