@@ -77,6 +77,11 @@ struct node {
   source_location where;
 };
 
+/// Whether operand `index` of `n` decides if a word is written.
+[[nodiscard]] inline bool is_write_enable(const node& n, std::size_t index) {
+  return n.kind == operation::memory_write && index == 2;
+}
+
 /// A loop-carried value. Its next value and enable are nodes of the same iteration.
 struct register_state {
   std::string name;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -203,7 +204,10 @@ class predictor {
       for (std::size_t i = 0; i < n.operands.size(); ++i) {
         chain in = arriving(n.operands[i], s_.stage[id]) + operations_.entry(g_, id, i);
         // Of a word that is written somebody else decides how many bits there are.
-        if (n.kind == operation::memory_write && i == 2) in.cells += d_.enable_setup;
+        if (dataflow::is_write_enable(n, i)) {
+          if (plan_.update_bits.contains({n.operands[i], s_.stage[id]})) continue;
+          in.cells += d_.enable_setup;
+        }
         if (total(in) > total(latest)) latest = in;
       }
       const bool is_end = s_.available[id] > s_.stage[id] || n.kind == operation::memory_write;
@@ -219,6 +223,14 @@ class predictor {
     std::map<std::pair<node_id, int>, double> enabled;  // flip-flops by condition and stage
     for (register_id r = 0; r < g_.registers.size(); ++r)
       enabled[{g_.registers[r].enable, s_.register_update[r]}] += g_.registers[r].width;
+    std::set<std::pair<node_id, int>> into_block_rams;
+    for (node_id id = 0; id < g_.nodes.size(); ++id) {
+      const node& n = g_.nodes[id];
+      const std::pair<node_id, int> place{n.kind == operation::memory_write ? n.operands[2] : 0, s_.stage[id]};
+      if (n.kind != operation::memory_write || !plan_.update_bits.contains(place)) continue;
+      enabled[place] += schedule::memory_inputs(g_, model_, n.object);
+      if (model_.storage(g_.memories[n.object]) == schedule::storage_kind::block) into_block_rams.insert(place);
+    }
     for (const auto& [place, flip_flops] : enabled) {
       const auto [condition, stage] = place;
       const node& n = g_.nodes[condition];
@@ -228,6 +240,7 @@ class predictor {
         offer_into_flip_flop(arriving(condition, stage - 1) + gate, name_of(condition), n.where);
         chain out = launch(flip_flops / static_cast<double>(bit->second.count()));
         out.cells += d_.enable_setup;
+        if (into_block_rams.contains(place)) out.wires += d_.block_wire;
         offer(out, name_of(condition), n.where);
       } else {
         const chain gate{d_.lut + d_.enable_setup, 1, is_chained(condition, stage) ? 0 : doublings_of(flip_flops)};
@@ -264,9 +277,10 @@ class predictor {
     const double flags = pointer * static_cast<double>(plan_.fifos.size()) + pointer + 1;
     offer_into_flip_flop(launch(2) + gates(always ? 0 : 1) + counting + gates(levels(flags)), "room of " + port.name,
                          port.where);
-    chain load = launch(4) + gates(levels(2 * pointer + 3));
+    chain load = launch(4) + gates(1);
     load.cells += d_.enable_setup;
-    load.doublings += doublings_of(port.width + pointer);
+    load.doublings += doublings_of(port.width + 2 * pointer);
+    offer_into_flip_flop(launch(4) + gates(levels(2 * pointer + 2) + 1), "word of " + port.name, port.where);
     offer(load, "word of " + port.name, port.where);
     if (f.storage == storage_kind::distributed) {
       const double deep = std::max(0.0, pointer - 4) / 2;

@@ -109,14 +109,15 @@ void write_output(module_text& m, const dataflow::port& port, const std::string&
          always ? m.values.valid(stage) : fmt::format("{} & ({})", m.values.valid(stage), pushes));
   m.line("  (* ram_style = \"{}\", no_rw_check *)", name_of(fifo.storage));
   m.line("  reg {}{}_fifo [0:{}];", range_of(port.width), name, fifo.depth - 1);
-  m.line("  reg [{}:0] {}_in, {}_out;", counter - 1, name, name);
+  m.line("  reg [{0}:0] {1}_in, {1}_out, {1}_after_out;", counter - 1, name);
   m.line("  reg {}{}_word;", range_of(port.width), name);
+  m.line("  reg {0}_waits;  // the FIFO holds a word: in a flip-flop, because what takes it out enables many", name);
   m.line("  reg {}_word_there, {}_left{};", name, name, always ? "" : fmt::format(", {}_skipped", name));
   // tready comes from a pin, or from somebody else's gates: only the last buffer's flags hang on it.
   const std::string end = name + "_end";
   write_buffer(m, end, port.width, name + "_word", name + "_word_there", false);
   m.line("  assign {0}_take = {0}_there & {1};", end, signal_name(port, "tready"));
-  m.line("  wire {0}_load = ({0}_in != {0}_out) & ({1}_ready | ~{0}_word_there);", name, end);
+  m.line("  wire {0}_load = {0}_waits & ({1}_ready | ~{0}_word_there);", name, end);
   m.line("  wire {}{}_data = {};", range_of(port.width), name, data);
   // The iteration issued in this clock is not counted yet.
   m.line("  assign {}_room = {}_credits_next > {};", name, name, literal(counter, 1));
@@ -127,7 +128,9 @@ void write_output(module_text& m, const dataflow::port& port, const std::string&
   m.line("    if ({}_push) {}_fifo[{}_in[{}:0]] <= {}_data;", name, name, name, pointer - 1, name);
   m.line("    if ({}_load) {}_word <= {}_fifo[{}_out[{}:0]];", name, name, name, name, pointer - 1);
   m.line("    if ({}_push) {}_in <= {}_in + {};", name, name, name, literal(counter, 1));
-  m.line("    if ({}_load) {}_out <= {}_out + {};", name, name, name, literal(counter, 1));
+  m.line("    if ({0}_load) {0}_out <= {0}_after_out;", name);
+  m.line("    if ({0}_load) {0}_after_out <= {0}_after_out + {1};", name, literal(counter, 1));
+  m.line("    {0}_waits <= {0}_in != ({0}_load ? {0}_after_out : {0}_out);", name);
   m.line("    {0}_word_there <= {0}_load | ({0}_word_there & ~{1}_ready);", name, end);
   m.line("    {}_left <= {}_load;", name, name);
   if (!always) m.line("    {}_skipped <= {} & ~({});", name, m.values.valid(stage), pushes);
@@ -136,6 +139,8 @@ void write_output(module_text& m, const dataflow::port& port, const std::string&
   m.line("      {}_word_there <= 1'b0;", name);
   m.line("      {}_in <= {};", name, literal(counter, 0));
   m.line("      {}_out <= {};", name, literal(counter, 0));
+  m.line("      {}_after_out <= {};", name, literal(counter, 1));
+  m.line("      {}_waits <= 1'b0;", name);
   m.line("      {}_left <= 1'b0;", name);
   if (!always) m.line("      {}_skipped <= 1'b0;", name);
   m.line("      {}_credits <= {};", name, literal(counter, fifo.depth));

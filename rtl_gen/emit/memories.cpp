@@ -116,10 +116,19 @@ void write_memory_writes(module_text& m, int stage) {
     const std::string& name = m.names.memories[i];
     const std::uint64_t words = m.g.memories[i].words;
     m.values.read_by(p.writes[0]);
+    bool early = true;  // the enables are flip-flops that say whether the stage holds an iteration, too
+    const auto chosen = [&](node_id id) {
+      const node_id condition = m.g.nodes[id].operands[2];
+      m.values.read_by(id);
+      std::string bit = m.values.update_bit(condition, stage);
+      early = !bit.empty();
+      return early ? bit : m.values.operand(condition, stage);
+    };
     const auto enable = [&](node_id id) {
-      const node_id e = m.g.nodes[id].operands[2];
-      return m.is_always(e) ? m.values.valid(stage)
-                            : fmt::format("{} & {}", m.values.valid(stage), m.values.operand(e, stage));
+      const std::string bit = chosen(id);
+      if (early) return bit;
+      return m.is_always(m.g.nodes[id].operands[2]) ? m.values.valid(stage)
+                                                    : fmt::format("{} & {}", m.values.valid(stage), bit);
     };
     if (p.writes.size() == 1 || !p.exclusive_writes) {
       m.line("  always @(posedge clk) begin{}", m.comment(m.g.nodes[p.writes[0]].where));
@@ -133,9 +142,11 @@ void write_memory_writes(module_text& m, int stage) {
     }
     // At most one is enabled: one write port.
     std::string any, address, data;
+    bool all_early = true;
     for (const node_id id : p.writes) {
       const node& n = m.g.nodes[id];
-      const std::string e = m.values.operand(n.operands[2], stage);
+      const std::string e = chosen(id);
+      all_early &= early;
       any += (any.empty() ? "" : " | ") + e;
       if (id == p.writes.back()) {
         address += m.values.index(n.operands[0], stage, words);
@@ -148,7 +159,7 @@ void write_memory_writes(module_text& m, int stage) {
     const std::string port = m.names.fresh(name + "_write");
     const std::string port_address = m.names.fresh(name + "_write_address");
     const std::string port_data = m.names.fresh(name + "_write_data");
-    m.line("  wire {} = {} & ({});", port, m.values.valid(stage), any);
+    m.line("  wire {} = {};", port, all_early ? any : fmt::format("{} & ({})", m.values.valid(stage), any));
     m.line("  wire {}{} = {};", range_of(bits_for(words - 1)), port_address, address);
     m.line("  wire {}{} = {};", range_of(m.g.memories[i].width), port_data, data);
     m.line("  always @(posedge clk) begin");

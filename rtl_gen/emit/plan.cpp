@@ -20,9 +20,9 @@ using schedule::storage_kind;
 
 namespace {
 
-// From the issue to the credit's return: issue, FIFO write, load of the output register, its report to the counter,
-// the counter, and one credit kept back because the counter sees an issue a clock late.
-constexpr int credit_round_trip = 6;
+// From the issue to the credit's return: issue, FIFO write, the flag that a word waits, load of the output register,
+// its report to the counter, the counter, and one credit kept back because the counter sees an issue a clock late.
+constexpr int credit_round_trip = 7;
 
 /// The 1-bit nodes whose conjunction `id` is, with their polarity.
 void collect_terms(const graph& g, node_id id, bool positive, std::vector<std::pair<node_id, bool>>& terms) {
@@ -97,7 +97,7 @@ void plan_memories(const graph& g, const schedule::delay_model& model, const sch
   }
 }
 
-/// Whether the condition under which a register is updated in `stage` is in flip-flops a stage earlier.
+/// Whether the condition under which a register or a memory is updated in `stage` is in flip-flops a stage earlier.
 bool has_update_bit(const graph& g, const schedule::result& s, node_id condition, int stage) {
   return g.nodes[condition].kind != operation::constant && s.stage[condition] != settled && stage >= 2 &&
          s.available[condition] < stage - 1;
@@ -107,7 +107,7 @@ void plan_waits(const graph& g, const schedule::delay_model& model, const schedu
                 const delay_line_limits& limits, plan& p) {
   std::vector<std::vector<int>> taps(g.nodes.size());
   for (const schedule::use& u : schedule::uses(g, s)) {
-    const bool early = u.enables != none && has_update_bit(g, s, u.value, u.stage);
+    const bool early = u.enables && has_update_bit(g, s, u.value, u.stage);
     if (u.stage > s.available[u.value]) taps[u.value].push_back(early ? u.stage - 1 : u.stage);
   }
   const bool has_distributed = model.parameters().distributed_max_words > 0;
@@ -183,12 +183,16 @@ void plan_copies(const graph& g, const schedule::delay_model& model, const sched
   using readers = std::vector<std::pair<schedule::reader, double>>;
   std::map<std::pair<node_id, int>, readers> of_value, of_condition;
   const auto count = static_cast<schedule::reader>(g.nodes.size());
+  // A RAM stands by itself: as an input of any kind, not as one flip-flop of a slice.
+  const double enables_a_ram = static_cast<double>(model.parameters().most_enabled) / most;
+  const auto enables = [&](const schedule::load& l) { return l.by < count ? l.inputs * enables_a_ram : l.inputs; };
   for (const schedule::load& l : schedule::find_loads(g, model)) {
     const int stage = l.by < count ? s.stage[l.by] : s.register_update[l.by - count];
     if (s.stage[l.value] == settled || stage == settled || stage <= s.available[l.value]) continue;
     const bool is_condition = l.enables && has_update_bit(g, s, l.value, stage);
     if (g.nodes[l.value].width <= widest)
-      (is_condition ? of_condition : of_value)[{l.value, stage}].emplace_back(l.by, l.inputs);
+      (is_condition ? of_condition : of_value)[{l.value, stage}].emplace_back(l.by,
+                                                                              is_condition ? enables(l) : l.inputs);
   }
   std::vector<readers> of_valid(p.last_valid + 1);
   for (auto& [place, here] : of_condition) {
@@ -225,7 +229,12 @@ void plan_copies(const graph& g, const schedule::delay_model& model, const sched
     p.early_reset_copies = divide_readers(of_early_reset, most);
     p.spare_bits += p.reset_copies.count() + p.early_reset_copies.count();
   }
-  // Valid bits enable the state.
+  // Valid bits enable the state and the memories.
+  for (node_id id = 0; id < count; ++id) {
+    const node& n = g.nodes[id];
+    if (n.kind != operation::memory_write || p.update_bits.contains({n.operands[2], s.stage[id]})) continue;
+    of_valid[s.stage[id]].emplace_back(id, schedule::memory_inputs(g, model, n.object));
+  }
   for (dataflow::register_id r = 0; r < g.registers.size(); ++r) {
     const int stage = s.register_update[r];
     if (p.update_bits.contains({g.registers[r].enable, stage})) continue;

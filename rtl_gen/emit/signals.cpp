@@ -101,6 +101,8 @@ const std::vector<meaning>& meanings() {
         {"_fifo", "the FIFO of '{0}'"},
         {"_in", "the FIFO of '{0}': where the next token goes"},
         {"_out", "the FIFO of '{0}': where the next token comes from"},
+        {"_after_out", "the FIFO of '{0}': where the token after the next one comes from"},
+        {"_waits", "1 when the FIFO of '{0}' holds a token"},
         {"_word", "the FIFO of '{0}': the token that has left it last"},
         {"_word_there", "1 when the token that has left the FIFO of '{0}' waits for the output"},
         {"_load", "1 when the FIFO of '{0}' gives a token to its output"},

@@ -109,6 +109,10 @@ void split_by_arrival(const graph& g, std::vector<key>& keys) {
   }
 }
 
+/// Bits of a packed word: 16 block RAMs of 18 bits. Wider words have addresses and enables that one flip-flop cannot
+/// bring everywhere in a clock; memories of their own have copies of them.
+constexpr unsigned widest = 288;
+
 /// Sorts the memories into groups; a group ends where its words would become too wide.
 std::vector<group> groups_of(const graph& g) {
   std::vector<key> keys = keys_of(g);
@@ -118,7 +122,7 @@ std::vector<group> groups_of(const graph& g) {
   std::vector<group> groups;
   for (memory_id m = 0; m < g.memories.size(); ++m) {
     const auto found = keys[m].empty() ? open.end() : open.find(keys[m]);
-    const bool joins = found != open.end() && widths[found->second] + g.memories[m].width <= dataflow::max_width;
+    const bool joins = found != open.end() && widths[found->second] + g.memories[m].width <= widest;
     const std::size_t index = joins ? found->second : groups.size();
     if (!joins) groups.emplace_back();
     if (!keys[m].empty()) open[keys[m]] = index;

@@ -10,7 +10,7 @@ using dataflow::operation;
 
 namespace {
 
-constexpr int around_the_pipeline = 3;  // the input register before the issue, the output's FIFO and its register
+constexpr int around_the_pipeline = 4;  // the input register before the issue, the output's FIFO, its flag and register
 constexpr int spare_places = 2;         // so that a FIFO that is just deep enough need not wait for its own handshake
 
 }  // namespace

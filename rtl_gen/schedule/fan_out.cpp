@@ -35,11 +35,8 @@ double inputs_of(const graph& g, const delay_model& model, const node& n, std::s
     case operation::table:
       return model.latency(g, static_cast<node_id>(&n - g.nodes.data())) > 0 ? 1 : n.width;
     case operation::memory_read:
-    case operation::memory_write: {
-      const dataflow::memory& m = g.memories[n.object];
-      if (n.kind == operation::memory_write && index == 1) return 1;
-      return model.storage(m) == storage_kind::block ? model.blocks(m.words, m.width) : m.width / 2.0;
-    }
+    case operation::memory_write:
+      return n.kind == operation::memory_write && index == 1 ? 1 : memory_inputs(g, model, n.object);
     default:
       return 1;
   }
@@ -61,6 +58,11 @@ double inputs_behind(const graph& g, const node& n, std::size_t index, double be
 
 }  // namespace
 
+double memory_inputs(const graph& g, const delay_model& model, dataflow::memory_id m) {
+  const dataflow::memory& memory = g.memories[m];
+  return model.storage(memory) == storage_kind::block ? model.blocks(memory.words, memory.width) : memory.width / 2.0;
+}
+
 std::vector<load> find_loads(const graph& g, const delay_model& model) {
   const std::size_t count = g.nodes.size();
   std::vector<std::vector<load>> by_node(count);  // what node `id` loads, wires as yet without weight
@@ -78,7 +80,7 @@ std::vector<load> find_loads(const graph& g, const delay_model& model) {
       if (is_constant(operand)) continue;
       const double inputs = wire ? inputs_behind(g, n, i, behind[id]) : inputs_of(g, model, n, i);
       behind[operand] += inputs;
-      by_node[id].push_back({operand, id, inputs});
+      by_node[id].push_back({operand, id, inputs, dataflow::is_write_enable(n, i)});
     }
   }
   std::vector<load> all;

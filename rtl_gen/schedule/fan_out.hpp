@@ -17,8 +17,11 @@ struct load {
   dataflow::node_id value = dataflow::none;
   reader by = 0;
   double inputs = 0;     // that one bit of the value drives there, wires behind it followed to their ends
-  bool enables = false;  // the reader is a register, and the value decides whether it is updated
+  bool enables = false;  // the value decides whether the reader, a register or a memory, is updated
 };
+
+/// Inputs that one bit of an address, or of an enable, of memory `m` drives.
+[[nodiscard]] double memory_inputs(const dataflow::graph& g, const delay_model& model, dataflow::memory_id m);
 
 /// Every read of every value that is not a constant, in the order of the readers. What stands behind a wire (a slice,
 /// an extension) loads the wire's operand, too.

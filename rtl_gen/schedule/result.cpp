@@ -88,16 +88,18 @@ bool is_settled_register(const graph& g, const result& s, node_id id) {
 
 std::vector<use> uses(const graph& g, const result& s) {
   std::vector<use> all;
-  const auto note = [&](node_id value, int stage, register_id enables = none) {
+  const auto note = [&](node_id value, int stage, bool enables = false) {
     if (s.stage[value] != settled) all.push_back({value, stage, enables});
   };
   for (node_id id = 0; id < g.nodes.size(); ++id) {
     if (s.stage[id] == settled) continue;
-    for (const node_id operand : g.nodes[id].operands) note(operand, s.stage[id]);
+    const node& n = g.nodes[id];
+    for (std::size_t i = 0; i < n.operands.size(); ++i)
+      note(n.operands[i], s.stage[id], dataflow::is_write_enable(n, i));
   }
   for (register_id r = 0; r < g.registers.size(); ++r) {
     note(g.registers[r].next, s.register_update[r]);
-    note(g.registers[r].enable, s.register_update[r], r);
+    note(g.registers[r].enable, s.register_update[r], true);
   }
   return all;
 }

@@ -98,7 +98,7 @@ class infeasible : public std::runtime_error {
 struct use {
   dataflow::node_id value = dataflow::none;
   int stage = 0;
-  dataflow::register_id enables = dataflow::none;  // the register whose update the value decides, if that is the use
+  bool enables = false;  // the value decides whether a register is updated, or a memory written
 };
 /// Every use of a value that is not settled, by stage: operands, registers' next values and enables.
 [[nodiscard]] std::vector<use> uses(const dataflow::graph& g, const result& s);

@@ -45,6 +45,7 @@ std::vector<example> examples() {
   all.back().name = "longer_wait";
   add(make_many_readers(40));
   add(make_small_memory());
+  add(make_late_write(20));
   add(make_two_writes(true));
   add(make_two_writes(false));
   add(make_all_operations(), 12);
@@ -318,6 +319,19 @@ TEST(make_plan, gives_many_readers_copies_of_their_flip_flop) {
   EXPECT_EQ(plain.spare_bits, 0u);
 }
 
+TEST(make_plan, brings_early_conditions_to_rams_without_a_gate) {
+  const schedule::delay_model model("ecp5");
+  const graph g = make_late_write(20);
+  const schedule::result s = schedule::make_schedule(g, model, {});
+  const emit::plan p = emit::make_plan(g, model, s);
+  ASSERT_EQ(p.update_bits.size(), 1u);
+  const auto write = std::find_if(g.nodes.begin(), g.nodes.end(),
+                                  [](const dataflow::node& n) { return n.kind == operation::memory_write; });
+  EXPECT_EQ(p.update_bits.begin()->first.first, write->operands[2]);
+  const std::string verilog = emit::emit_verilog(g, model, s);
+  EXPECT_THAT(verilog, ::testing::ContainsRegex("if \\([a-z0-9_]+_enable_[0-9]+\\) ring\\["));
+}
+
 TEST(make_plan, gives_fifos_room_for_all_in_flight) {
   const schedule::delay_model model("ecp5");
   for (const unsigned chain : {1u, 12u, 60u}) {
@@ -325,7 +339,7 @@ TEST(make_plan, gives_fifos_room_for_all_in_flight) {
     const schedule::result s = schedule::make_schedule(g, model, {});
     const emit::plan p = emit::make_plan(g, model, s);
     ASSERT_EQ(p.fifos.size(), 1u);
-    EXPECT_GE(p.fifos[0].depth, static_cast<unsigned>(s.depth + 4));
+    EXPECT_GE(p.fifos[0].depth, static_cast<unsigned>(s.depth + 5));
     EXPECT_EQ(p.fifos[0].depth & (p.fifos[0].depth - 1), 0u);
   }
 }

@@ -142,6 +142,20 @@ TEST(pack_memories, unequal_accesses_stay_apart) {
   }
 }
 
+TEST(pack_memories, words_end_where_one_address_would_go_too_far) {
+  small_graph s;
+  const node_id one = s.constant(1, 1), address = s.read("a", 2), data = s.read("d", 24);
+  for (unsigned i = 0; i < 14; ++i) {
+    const auto line = s.add_memory("line", 4, 24);
+    s.write("out" + std::to_string(i), s.make(op::memory_read, 24, {address, one}, line));
+    s.make(op::memory_write, 0, {address, data, one}, line);
+  }
+  const graph after = run(s.g, pack_memories);
+  ASSERT_EQ(after.memories.size(), 2u);
+  EXPECT_EQ(after.memories[0].width, 12 * 24u);
+  EXPECT_EQ(after.memories[1].width, 2 * 24u);
+}
+
 TEST(pack_memories, reads_of_one_memory_at_one_address_become_one_in_the_pipeline) {
   graph g = two_memories("").g;
   run_default_pipeline(g);

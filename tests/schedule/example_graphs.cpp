@@ -194,6 +194,25 @@ graph make_small_memory() {
   return b.g;
 }
 
+graph make_late_write(unsigned rams) {
+  graph_builder b("late_write");
+  const auto in = b.stream("in", true, 33);
+  const auto out = b.stream("out", false, 32);
+  const node_id one = b.always();
+  const node_id x = b.read(in, one);
+  const unsigned words = 1024;
+  const auto ram = b.memory("ring", words, 18 * rams, words);
+  const auto [place, place_value] = b.state("place", 10, 0);
+  b.set(place, b.sum(place_value, b.constant(10, 1)), one);
+  const node_id old = b.load(ram, place_value, one);
+  node_id y = b.binary(operation::bit_xor, b.slice(x, 0, 32), b.slice(old, 18 * rams - 32, 32));
+  for (unsigned i = 0; i < 6; ++i) y = b.sum(y, b.add(operation::concat, 32, {b.slice(y, 0, 13), b.slice(y, 13, 19)}));
+  std::vector<node_id> parts(rams, b.slice(y, 7, 18));
+  b.store(ram, place_value, b.add(operation::concat, 18 * rams, parts), b.slice(x, 32, 1));
+  b.write(out, one, y);
+  return b.g;
+}
+
 graph make_two_writes(bool exclusive) {
   graph_builder b(exclusive ? "exclusive_writes" : "ordered_writes");
   const auto in = b.stream("in", true, 20);

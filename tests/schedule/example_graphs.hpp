@@ -26,6 +26,8 @@ graph make_long_wait(unsigned chain);
 graph make_many_readers(unsigned levels);
 /// Small RAM (LUT RAM) and a constant table past whose end addresses go.
 graph make_small_memory();
+/// A RAM of `rams` times 18 bits whose words are long in coming, long after the condition under which they are written.
+graph make_late_write(unsigned rams);
 /// Two writes to one memory under conditions that exclude each other (or visibly do not).
 graph make_two_writes(bool exclusive);
 /// All operations on tokens of odd widths.
