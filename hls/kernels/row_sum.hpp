@@ -37,7 +37,9 @@ class row_sum {
   using cost_t = ap_uint<window::bits_for(window_columns* window_columns* Window::largest_difference)>;
   using costs = level_array<cost_t, lanes, levels>;
 
-  costs step(const column_beat& newest) {
+  /// `restart` during a whole row of columns of 0 makes the state agree with itself, whatever it was: what that row
+  /// leaves in the window is 0, and so is the sum.
+  costs step(const column_beat& newest, bool restart) {
 #pragma HLS INLINE
     if constexpr (groups > 1) {  // one lane
       entering_ = waiting_.step(newest);
@@ -55,7 +57,7 @@ class row_sum {
       }
     }
     move_groups_on(sum_);
-    for (int d = 0; d < levels; ++d) sum_[0][d] = result.at[lanes - 1][d];
+    for (int d = 0; d < levels; ++d) sum_[0][d] = restart ? cost_t(0) : result.at[lanes - 1][d];
 
     if constexpr (groups == 1) {
       for (int k = history - 1; k >= lanes; --k) {
@@ -65,15 +67,6 @@ class row_sum {
         for (int d = 0; d < levels; ++d) columns_[lanes - 1 - lane][d] = newest.at[lane][d];
       }
     }
-    return result;
-  }
-
-  /// `restart` during a whole row of columns of 0 makes the state agree with itself, whatever it was: what that row
-  /// leaves in the window is 0, and so is the sum.
-  costs step(const column_beat& newest, bool restart) {
-#pragma HLS INLINE
-    const costs result = step(newest);
-    for (int d = 0; d < levels; ++d) sum_[0][d] = restart ? cost_t(0) : sum_[0][d];
     return result;
   }
 

@@ -97,7 +97,7 @@ void adaptive_ca_frame(hls::stream<typename adaptive_ca_interface<Config>::video
   level_group<Config> group;
   // What stands in the delay lines at power-up must not reach the output: nothing is written before they have been
   // filled.
-  ap_uint<window::bits_for(schedule::flush_beats)> until_filled = schedule::flush_beats;
+  window::warm_up<schedule::flush_beats> until_filled;
   bool more = true;
   do {
 #pragma HLS PIPELINE II = 1
@@ -180,8 +180,7 @@ void adaptive_ca_frame(hls::stream<typename adaptive_ca_interface<Config>::video
     filter_at.marks.last_of_row = centre_beat == beats - 1;
     if (group.last()) {
       const auto found = filter.step(winner, filter_at, automaton, ring);
-      const bool filled = until_filled == 0;
-      if (!filled) until_filled = until_filled - 1;
+      const bool filled = until_filled.step();
       if (filled && found.marks.in_frame) disparity.write(output_beat<Config>(found));
       more = raster.advance();
     }

@@ -88,7 +88,7 @@ void color_fuzzy_frame(hls::stream<typename color_fuzzy_interface<Config>::video
   level_group<Config> group;
   // What stands in the delay lines at power-up must not reach the output: nothing is written before they have been
   // filled.
-  ap_uint<window::bits_for(schedule::flush_beats)> until_filled = schedule::flush_beats;
+  window::warm_up<schedule::flush_beats> until_filled;
   bool more = true;
   do {
 #pragma HLS PIPELINE II = 1
@@ -133,8 +133,7 @@ void color_fuzzy_frame(hls::stream<typename color_fuzzy_interface<Config>::video
     if (group.last()) {
       const auto once = first_pass.step(agreed, fuzzy >= 1, careful_fill);
       const auto twice = second_pass.step(once, fuzzy >= 2, careful_fill);
-      const bool filled = until_filled == 0;
-      if (!filled) until_filled = until_filled - 1;
+      const bool filled = until_filled.step();
       if (filled && twice.marks.in_frame) disparity.write(output_beat<Config>(twice));
       more = raster.advance();
     }

@@ -105,4 +105,19 @@ class raster {
   row_t last_padding_row_;
 };
 
+/// Tells when delays of up to `Steps` steps have run full, as the flush lets them run out.
+template <int Steps>
+class warm_up {
+ public:
+  /// True from step `Steps` + 1 on.
+  bool step() {
+    const bool filled = left_ == 0;
+    if (!filled) left_ = left_ - 1;
+    return filled;
+  }
+
+ private:
+  ap_uint<bits_for(Steps)> left_ = Steps;
+};
+
 }  // namespace epiline::window
