@@ -281,9 +281,14 @@ class Expressions:
             index = Value(str(r.randrange(a.width)), 32, True)
         else:
             index = self.ap_operand(0).cast(r.randint(1, a.width.bit_length() - 1), False)
-        text = f"{a.text}[{index.text}]" if r.random() < 0.7 else f"{a.text}.test({index.text})"
+        brackets = r.random() < 0.7
         self.hit("bit", a.width, a.signed)
-        return Value(text, 1, False, proxy=True, tainted=a.tainted or index.tainted).cast(1, False)
+        tainted = a.tainted or index.tainted
+        if brackets and not index.text.isdigit():
+            # g++ takes type(name[type(..)]) for the declaration of an array and complains about its size.
+            return Value(f"((ap_uint<1>){a.text}[{index.text}])", 1, False, tainted=tainted)
+        text = f"{a.text}[{index.text}]" if brackets else f"{a.text}.test({index.text})"
+        return Value(text, 1, False, proxy=True, tainted=tainted).cast(1, False)
 
     def make_concat(self, depth):
         a = self.ap_operand(depth, 70)
