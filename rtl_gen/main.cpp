@@ -13,6 +13,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <regex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -381,6 +382,13 @@ void prepare_check(command_line& given) {
   wanted.target = given.target;
 }
 
+/// CLI11's errors in the form of all the others.
+std::string explain_wrong_options(const CLI::App*, const CLI::Error& wrong) {
+  static const std::regex repeated("(-[^:]*): At Most 1 required but received ([0-9]+)");
+  const std::string text = std::regex_replace(wrong.what(), repeated, "$1 is there $2 times: give it once");
+  return fmt::format("error: {} (epiline-hls --help tells of all options)\n", text);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -441,6 +449,7 @@ int main(int argc, char** argv) {
       ->type_name("SIGNAL FOLDER")
       ->expected(2);
   app.add_flag("-q,--quiet", given.quiet, "print nothing but problems");
+  app.failure_message(explain_wrong_options);
   CLI11_PARSE(app, argc, argv);
   try {
     if (given.interval != "auto" &&

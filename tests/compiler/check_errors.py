@@ -44,6 +44,8 @@ COMMAND_LINES = [
     ("clock without a number", ["{source}", "--top", "fir", "--clock", "fast", "-o", "{out}"], r"fast"),
     ("clock with a strange unit", ["{source}", "--top", "fir", "--clock", "6parsecs", "-o", "{out}"], r"6parsecs"),
     ("clock nan", ["{source}", "--top", "fir", "--clock", "nanns", "-o", "{out}"], r"nanns"),
+    ("two clocks", ["{source}", "--top", "fir", "--clock", "6", "--clock", "7", "-o", "{out}"],
+     r"^error: --clock is there 2 times: give it once"),
     ("unknown target", ["{source}", "--top", "fir", "--target", "abacus", "-o", "{out}"], r"abacus.*ecp5"),
     ("no file of delays", ["{source}", "--top", "fir", "--device-delays", "{out}_no_such", "-o", "{out}"],
      r"--device-delays .*_no_such: cannot be read"),
