@@ -93,8 +93,8 @@ std::false_type probe_fixed(const void*);
 template <class T>
 inline constexpr bool is_fixed = decltype(probe_fixed(static_cast<const std::decay_t<T>*>(nullptr)))::value;
 template <class A, class B>
-using if_fixed_operands =
-    std::enable_if_t<(is_fixed<A> && (is_fixed<B> || is_operand<B>)) || (is_fixed<B> && is_operand<A>), int>;
+inline constexpr bool are_fixed_operands =
+    (is_fixed<A> && (is_fixed<B> || is_operand<B>)) || (is_fixed<B> && is_operand<A>);
 
 }  // namespace detail
 
@@ -130,8 +130,10 @@ class ap_fixed_base {
   template <int W2, int I2, bool S2, ap_q_mode Q2, ap_o_mode O2, int N2>
   constexpr ap_fixed_base(const ap_fixed_base<W2, I2, S2, Q2, O2, N2>& v)
       : V(detail::fitted<W, S, fraction, Q, O, W2 - I2>(v.V)) {}
-  template <class T, std::enable_if_t<detail::is_operand<T>, int> = 0>
+  template <class T, std::enable_if_t<detail::is_ap<T>, int> = 0>
   constexpr ap_fixed_base(const T& v) : V(detail::fitted<W, S, fraction, Q, O, 0>(detail::value_of(v))) {}
+  template <class T, std::enable_if_t<detail::is_c_integer<T>, int> = 0>
+  constexpr ap_fixed_base(T v) : V(detail::fitted<W, S, fraction, Q, O, 0>(detail::value_of(v))) {}
   /// Of a constant, in hardware. Not a number counts as zero, infinity as more than any number.
   template <class T, std::enable_if_t<std::is_floating_point_v<T>, int> = 0>
   constexpr ap_fixed_base(T v) : V(of_floating(static_cast<double>(v))) {}
@@ -196,49 +198,40 @@ class ap_fixed_base {
   constexpr auto operator-() const { return ap_fixed_base<W + 1, I + 1, true>::from_bits(-V); }
   constexpr auto operator~() const { return ap_fixed_base<W, I, S>::from_bits(~V); }
 
-  template <class T>
-  constexpr ap_fixed_base& operator+=(const T& v) {
-    return *this = *this + v;
+#define EPILINE_AP_FIXED_ASSIGNMENT(symbol, compound)                \
+  template <class T, std::enable_if_t<std::is_class_v<T>, int> = 0>  \
+  constexpr ap_fixed_base& operator compound(const T & v) {          \
+    return *this = *this symbol v;                                   \
+  }                                                                  \
+  template <class T, std::enable_if_t<!std::is_class_v<T>, int> = 0> \
+  constexpr ap_fixed_base& operator compound(T v) {                  \
+    return *this = *this symbol v;                                   \
   }
-  template <class T>
-  constexpr ap_fixed_base& operator-=(const T& v) {
-    return *this = *this - v;
-  }
-  template <class T>
-  constexpr ap_fixed_base& operator*=(const T& v) {
-    return *this = *this * v;
-  }
-  template <class T>
-  constexpr ap_fixed_base& operator/=(const T& v) {
-    return *this = *this / v;
-  }
-  template <class T>
-  constexpr ap_fixed_base& operator&=(const T& v) {
-    return *this = *this & v;
-  }
-  template <class T>
-  constexpr ap_fixed_base& operator|=(const T& v) {
-    return *this = *this | v;
-  }
-  template <class T>
-  constexpr ap_fixed_base& operator^=(const T& v) {
-    return *this = *this ^ v;
-  }
-  template <class T, std::enable_if_t<detail::is_operand<T>, int> = 0>
+  EPILINE_AP_FIXED_ASSIGNMENT(+, +=)
+  EPILINE_AP_FIXED_ASSIGNMENT(-, -=)
+  EPILINE_AP_FIXED_ASSIGNMENT(*, *=)
+  EPILINE_AP_FIXED_ASSIGNMENT(/, /=)
+  EPILINE_AP_FIXED_ASSIGNMENT(&, &=)
+  EPILINE_AP_FIXED_ASSIGNMENT(|, |=)
+  EPILINE_AP_FIXED_ASSIGNMENT(^, ^=)
+  EPILINE_AP_FIXED_ASSIGNMENT(<<, <<=)
+  EPILINE_AP_FIXED_ASSIGNMENT(>>, >>=)
+#undef EPILINE_AP_FIXED_ASSIGNMENT
+  template <class T, std::enable_if_t<detail::is_ap<T>, int> = 0>
   constexpr ap_fixed_base operator<<(const T& places) const {
     return from_bits(V << places);
   }
-  template <class T, std::enable_if_t<detail::is_operand<T>, int> = 0>
+  template <class T, std::enable_if_t<detail::is_c_integer<T>, int> = 0>
+  constexpr ap_fixed_base operator<<(T places) const {
+    return from_bits(V << places);
+  }
+  template <class T, std::enable_if_t<detail::is_ap<T>, int> = 0>
   constexpr ap_fixed_base operator>>(const T& places) const {
     return from_bits(V >> places);
   }
-  template <class T>
-  constexpr ap_fixed_base& operator<<=(const T& places) {
-    return *this = *this << places;
-  }
-  template <class T>
-  constexpr ap_fixed_base& operator>>=(const T& places) {
-    return *this = *this >> places;
+  template <class T, std::enable_if_t<detail::is_c_integer<T>, int> = 0>
+  constexpr ap_fixed_base operator>>(T places) const {
+    return from_bits(V >> places);
   }
   constexpr ap_fixed_base& operator++() { return *this = *this + ap_int_base<1, false>(1); }
   constexpr ap_fixed_base& operator--() { return *this = *this - ap_int_base<1, false>(1); }
@@ -317,8 +310,20 @@ constexpr auto divide(const ap_fixed_base<WA, IA, SA>& a, const ap_fixed_base<WB
   return result::from_bits((ap_int_base<WA + places, SA>(a.V) << places) / b.V);
 }
 template <int WA, int IA, bool SA, int WB, int IB, bool SB>
-constexpr auto bits_of_both(const ap_fixed_base<WA, IA, SA>&, const ap_fixed_base<WB, IB, SB>&) ->
-    typename ap_fixed_base<WA, IA, SA>::template RType<WB, IB, SB>::logic;
+constexpr auto bit_and(const ap_fixed_base<WA, IA, SA>& a, const ap_fixed_base<WB, IB, SB>& b) {
+  using result = typename ap_fixed_base<WA, IA, SA>::template RType<WB, IB, SB>::logic;
+  return result::from_bits(result(a).V & result(b).V);
+}
+template <int WA, int IA, bool SA, int WB, int IB, bool SB>
+constexpr auto bit_or(const ap_fixed_base<WA, IA, SA>& a, const ap_fixed_base<WB, IB, SB>& b) {
+  using result = typename ap_fixed_base<WA, IA, SA>::template RType<WB, IB, SB>::logic;
+  return result::from_bits(result(a).V | result(b).V);
+}
+template <int WA, int IA, bool SA, int WB, int IB, bool SB>
+constexpr auto bit_xor(const ap_fixed_base<WA, IA, SA>& a, const ap_fixed_base<WB, IB, SB>& b) {
+  using result = typename ap_fixed_base<WA, IA, SA>::template RType<WB, IB, SB>::logic;
+  return result::from_bits(result(a).V ^ result(b).V);
+}
 template <int WA, int IA, bool SA, int WB, int IB, bool SB>
 constexpr bool equal(const ap_fixed_base<WA, IA, SA>& a, const ap_fixed_base<WB, IB, SB>& b) {
   using both = typename ap_fixed_base<WA, IA, SA>::template RType<WB, IB, SB>::logic;
@@ -332,27 +337,16 @@ constexpr bool less(const ap_fixed_base<WA, IA, SA>& a, const ap_fixed_base<WB, 
 
 }  // namespace detail
 
-#define EPILINE_AP_FIXED(symbol, function)                             \
-  template <class A, class B, detail::if_fixed_operands<A, B> = 0>     \
-  constexpr auto operator symbol(const A& a, const B& b) {             \
-    return detail::function(detail::fixed_of(a), detail::fixed_of(b)); \
-  }
+#define EPILINE_AP_FIXED(symbol, function) \
+  EPILINE_AP_OPERATOR(detail::are_fixed_operands, symbol, detail::function(detail::fixed_of(a), detail::fixed_of(b)))
 EPILINE_AP_FIXED(+, add)
 EPILINE_AP_FIXED(-, subtract)
 EPILINE_AP_FIXED(*, multiply)
 EPILINE_AP_FIXED(/, divide)
+EPILINE_AP_FIXED(&, bit_and)
+EPILINE_AP_FIXED(|, bit_or)
+EPILINE_AP_FIXED(^, bit_xor)
 #undef EPILINE_AP_FIXED
-
-#define EPILINE_AP_FIXED_LOGIC(symbol)                                                            \
-  template <class A, class B, detail::if_fixed_operands<A, B> = 0>                                \
-  constexpr auto operator symbol(const A& a, const B& b) {                                        \
-    using result = decltype(detail::bits_of_both(detail::fixed_of(a), detail::fixed_of(b)));      \
-    return result::from_bits(result(detail::fixed_of(a)).V symbol result(detail::fixed_of(b)).V); \
-  }
-EPILINE_AP_FIXED_LOGIC(&)
-EPILINE_AP_FIXED_LOGIC(|)
-EPILINE_AP_FIXED_LOGIC(^)
-#undef EPILINE_AP_FIXED_LOGIC
 
 namespace detail {
 
@@ -374,19 +368,13 @@ inline constexpr bool are_comparable = (is_fixed<A> && (is_fixed<B> || is_operan
 
 }  // namespace detail
 
-#define EPILINE_AP_FIXED_COMPARE(symbol, expression)                                   \
-  template <class A, class B, std::enable_if_t<detail::are_comparable<A, B>, int> = 0> \
-  constexpr bool operator symbol(const A& left, const B& right) {                      \
-    const auto a = detail::comparable<B>(left);                                        \
-    const auto b = detail::comparable<A>(right);                                       \
-    return expression;                                                                 \
-  }
-EPILINE_AP_FIXED_COMPARE(==, detail::equal(a, b))
-EPILINE_AP_FIXED_COMPARE(!=, !detail::equal(a, b))
-EPILINE_AP_FIXED_COMPARE(<, detail::less(a, b))
-EPILINE_AP_FIXED_COMPARE(>, detail::less(b, a))
-EPILINE_AP_FIXED_COMPARE(<=, !detail::less(b, a))
-EPILINE_AP_FIXED_COMPARE(>=, !detail::less(a, b))
+#define EPILINE_AP_FIXED_COMPARE(symbol, expression) EPILINE_AP_OPERATOR(detail::are_comparable, symbol, expression)
+EPILINE_AP_FIXED_COMPARE(==, detail::equal(detail::comparable<B>(a), detail::comparable<A>(b)))
+EPILINE_AP_FIXED_COMPARE(!=, !detail::equal(detail::comparable<B>(a), detail::comparable<A>(b)))
+EPILINE_AP_FIXED_COMPARE(<, detail::less(detail::comparable<B>(a), detail::comparable<A>(b)))
+EPILINE_AP_FIXED_COMPARE(>, detail::less(detail::comparable<A>(b), detail::comparable<B>(a)))
+EPILINE_AP_FIXED_COMPARE(<=, !detail::less(detail::comparable<A>(b), detail::comparable<B>(a)))
+EPILINE_AP_FIXED_COMPARE(>=, !detail::less(detail::comparable<B>(a), detail::comparable<A>(b)))
 #undef EPILINE_AP_FIXED_COMPARE
 
 #ifndef __SYNTHESIS__

@@ -103,8 +103,13 @@ template <class T>
 inline constexpr bool is_operand = is_ap<T> || is_c_integer<T>;
 template <class A, class B>
 inline constexpr bool are_operands = (is_ap<A> && is_operand<B>) || (is_c_integer<A> && is_ap<B>);
-template <class A, class B>
-using if_operands = std::enable_if_t<are_operands<A, B>, int>;
+// Which of two operands are classes: the others are built in.
+template <bool condition, class A, class B>
+using if_both_classes = std::enable_if_t<condition && std::is_class_v<A> && std::is_class_v<B>, int>;
+template <bool condition, class A, class B>
+using if_left_class = std::enable_if_t<condition && !std::is_class_v<B>, int>;
+template <bool condition, class A, class B>
+using if_right_class = std::enable_if_t<condition && !std::is_class_v<A>, int>;
 // A: what a forwarding reference deduces for the left side of a compound assignment. Proxies may be temporaries.
 template <class A, class B, class Bare = std::decay_t<A>>
 using if_assignable = std::enable_if_t<is_ap<Bare> && is_operand<B> && !std::is_const_v<std::remove_reference_t<A>> &&
@@ -436,8 +441,13 @@ class ap_range_ref {
   constexpr operator unsigned long long() const { return get().to_uint64(); }
   constexpr int length() const { return (high_ >= low_ ? high_ - low_ : low_ - high_) + 1; }
 
-  template <class T, std::enable_if_t<detail::is_operand<T>, int> = 0>
+  template <class T, std::enable_if_t<detail::is_ap<T>, int> = 0>
   constexpr ap_range_ref& operator=(const T& v) {
+    write(value(detail::value_of(v)));
+    return *this;
+  }
+  template <class T, std::enable_if_t<detail::is_c_integer<T>, int> = 0>
+  constexpr ap_range_ref& operator=(T v) {
     write(value(detail::value_of(v)));
     return *this;
   }
@@ -505,8 +515,13 @@ class ap_bit_ref {
   constexpr bool operator~() const { return !to_bool(); }
   static constexpr int length() { return 1; }
 
-  template <class T, std::enable_if_t<detail::is_operand<T>, int> = 0>
+  template <class T, std::enable_if_t<detail::is_ap<T>, int> = 0>
   constexpr ap_bit_ref& operator=(const T& v) {
+    target_->set(index_, detail::value_of(v).to_bool());
+    return *this;
+  }
+  template <class T, std::enable_if_t<detail::is_c_integer<T>, int> = 0>
+  constexpr ap_bit_ref& operator=(T v) {
     target_->set(index_, detail::value_of(v).to_bool());
     return *this;
   }
@@ -541,8 +556,13 @@ class ap_concat_ref {
   constexpr operator unsigned long long() const { return get().to_uint64(); }
   constexpr int length() const { return high_.length() + low_.length(); }
 
-  template <class T, std::enable_if_t<detail::is_operand<T>, int> = 0>
+  template <class T, std::enable_if_t<detail::is_ap<T>, int> = 0>
   constexpr ap_concat_ref& operator=(const T& v) {
+    write(value(detail::value_of(v)));
+    return *this;
+  }
+  template <class T, std::enable_if_t<detail::is_c_integer<T>, int> = 0>
+  constexpr ap_concat_ref& operator=(T v) {
     write(value(detail::value_of(v)));
     return *this;
   }
@@ -591,12 +611,22 @@ using concat_part = std::conditional_t<
 
 }  // namespace detail
 
-template <class A, class B, detail::if_operands<std::decay_t<A>, std::decay_t<B>> = 0>
-constexpr auto operator,(A&& high, B&& low) {
-  using high_part = detail::concat_part<A>;
-  using low_part = detail::concat_part<B>;
-  return ap_concat_ref<high_part, low_part>(static_cast<high_part>(high), static_cast<low_part>(low));
-}
+// Built-in operands come by value, here and below: a reference to a class's `static const int shift = 4;` would want a
+// definition of it, which nobody writes. Integers of this header come by reference: by value they would travel in an
+// ABI's containers.
+#define EPILINE_AP_CONCATENATION(which, LEFT, RIGHT)                                                                  \
+  template <class A, class B,                                                                                         \
+            detail::which<detail::are_operands<std::decay_t<A>, std::decay_t<B>>, std::decay_t<A>, std::decay_t<B>> = \
+                0>                                                                                                    \
+  constexpr auto operator,(LEFT high, RIGHT low) {                                                                    \
+    using high_part = detail::concat_part<A>;                                                                         \
+    using low_part = detail::concat_part<B>;                                                                          \
+    return ap_concat_ref<high_part, low_part>(static_cast<high_part>(high), static_cast<low_part>(low));              \
+  }
+EPILINE_AP_CONCATENATION(if_both_classes, A&&, B&&)
+EPILINE_AP_CONCATENATION(if_left_class, A&&, B)
+EPILINE_AP_CONCATENATION(if_right_class, A, B&&)
+#undef EPILINE_AP_CONCATENATION
 
 // The operators proper, on values.
 namespace detail {
@@ -689,6 +719,24 @@ constexpr ap_int_base<W, S> shift_right(const ap_int_base<W, S>& a, const ap_int
   return right_by(a, ap_int_base<W2, false>(amount));
 }
 
+// The left side of a shift as C promotes it, and the shifted value as what C makes of it.
+template <class A>
+constexpr decltype(auto) promoted(const A& a) {
+  if constexpr (is_ap<A>) {
+    return (a);
+  } else {
+    return +a;
+  }
+}
+template <class A, class Value>
+constexpr auto shifted(const Value& v) {
+  if constexpr (is_ap<A>) {
+    return v;
+  } else {
+    return static_cast<decltype(+std::declval<A>())>(v);
+  }
+}
+
 // Both values in a type that holds either, so that compares are mathematical across signs.
 template <class A, class B>
 constexpr bool equal(const A& a, const B& b) {
@@ -703,57 +751,59 @@ constexpr bool less(const A& a, const B& b) {
 
 }  // namespace detail
 
-#define EPILINE_AP_BINARY(symbol, function)                                       \
-  template <class A, class B, detail::if_operands<A, B> = 0>                      \
+#define EPILINE_AP_OPERATOR(condition, symbol, ...)                               \
+  template <class A, class B, detail::if_both_classes<condition<A, B>, A, B> = 0> \
   constexpr auto operator symbol(const A& a, const B& b) {                        \
-    return detail::function(detail::value_of(a), detail::value_of(b));            \
+    return __VA_ARGS__;                                                           \
   }                                                                               \
-  template <class A, class B>                                                     \
-  constexpr detail::if_assignable<A, B> operator symbol##=(A && a, const B & b) { \
-    return a = detail::function(detail::value_of(a), detail::value_of(b));        \
+  template <class A, class B, detail::if_left_class<condition<A, B>, A, B> = 0>   \
+  constexpr auto operator symbol(const A& a, B b) {                               \
+    return __VA_ARGS__;                                                           \
+  }                                                                               \
+  template <class A, class B, detail::if_right_class<condition<A, B>, A, B> = 0>  \
+  constexpr auto operator symbol(A a, const B& b) {                               \
+    return __VA_ARGS__;                                                           \
   }
-EPILINE_AP_BINARY(+, add)
-EPILINE_AP_BINARY(-, subtract)
-EPILINE_AP_BINARY(*, multiply)
-EPILINE_AP_BINARY(/, divide)
-EPILINE_AP_BINARY(%, remainder)
-EPILINE_AP_BINARY(&, bit_and)
-EPILINE_AP_BINARY(|, bit_or)
-EPILINE_AP_BINARY(^, bit_xor)
+#define EPILINE_AP_ASSIGNMENT(symbol, ...)                                     \
+  template <class A, class B, std::enable_if_t<std::is_class_v<B>, int> = 0>   \
+  constexpr detail::if_assignable<A, B> operator symbol(A && a, const B & b) { \
+    return a = __VA_ARGS__;                                                    \
+  }                                                                            \
+  template <class A, class B, std::enable_if_t<!std::is_class_v<B>, int> = 0>  \
+  constexpr detail::if_assignable<A, B> operator symbol(A && a, B b) {         \
+    return a = __VA_ARGS__;                                                    \
+  }
+
+#define EPILINE_AP_BINARY(symbol, compound, function)                                                           \
+  EPILINE_AP_OPERATOR(detail::are_operands, symbol, detail::function(detail::value_of(a), detail::value_of(b))) \
+  EPILINE_AP_ASSIGNMENT(compound, detail::function(detail::value_of(a), detail::value_of(b)))
+EPILINE_AP_BINARY(+, +=, add)
+EPILINE_AP_BINARY(-, -=, subtract)
+EPILINE_AP_BINARY(*, *=, multiply)
+EPILINE_AP_BINARY(/, /=, divide)
+EPILINE_AP_BINARY(%, %=, remainder)
+EPILINE_AP_BINARY(&, &=, bit_and)
+EPILINE_AP_BINARY(|, |=, bit_or)
+EPILINE_AP_BINARY(^, ^=, bit_xor)
 #undef EPILINE_AP_BINARY
 
 // A C integer shifted by an ap amount stays the C integer that C would make of it.
-#define EPILINE_AP_SHIFT(symbol, function)                                                           \
-  template <class A, class B, detail::if_operands<A, B> = 0>                                         \
-  constexpr auto operator symbol(const A& a, const B& b) {                                           \
-    if constexpr (detail::is_ap<A>) {                                                                \
-      return detail::function(detail::value_of(a), detail::value_of(b));                             \
-    } else {                                                                                         \
-      return static_cast<decltype(+a)>(detail::function(detail::value_of(+a), detail::value_of(b))); \
-    }                                                                                                \
-  }                                                                                                  \
-  template <class A, class B>                                                                        \
-  constexpr detail::if_assignable<A, B> operator symbol##=(A && a, const B & b) {                    \
-    return a = detail::function(detail::value_of(a), detail::value_of(b));                           \
-  }
-EPILINE_AP_SHIFT(<<, shift_left)
-EPILINE_AP_SHIFT(>>, shift_right)
+#define EPILINE_AP_SHIFT(symbol, compound, function)                                                    \
+  EPILINE_AP_OPERATOR(                                                                                  \
+      detail::are_operands, symbol,                                                                     \
+      detail::shifted<A>(detail::function(detail::value_of(detail::promoted(a)), detail::value_of(b)))) \
+  EPILINE_AP_ASSIGNMENT(compound, detail::function(detail::value_of(a), detail::value_of(b)))
+EPILINE_AP_SHIFT(<<, <<=, shift_left)
+EPILINE_AP_SHIFT(>>, >>=, shift_right)
 #undef EPILINE_AP_SHIFT
 
-#define EPILINE_AP_COMPARE(symbol, expression)                    \
-  template <class A, class B, detail::if_operands<A, B> = 0>      \
-  constexpr bool operator symbol(const A& left, const B& right) { \
-    const auto& a = detail::value_of(left);                       \
-    const auto& b = detail::value_of(right);                      \
-    return expression;                                            \
-  }
-EPILINE_AP_COMPARE(==, detail::equal(a, b))
-EPILINE_AP_COMPARE(!=, !detail::equal(a, b))
-EPILINE_AP_COMPARE(<, detail::less(a, b))
-EPILINE_AP_COMPARE(>, detail::less(b, a))
-EPILINE_AP_COMPARE(<=, !detail::less(b, a))
-EPILINE_AP_COMPARE(>=, !detail::less(a, b))
-#undef EPILINE_AP_COMPARE
+EPILINE_AP_OPERATOR(detail::are_operands, ==, detail::equal(detail::value_of(a), detail::value_of(b)))
+EPILINE_AP_OPERATOR(detail::are_operands, !=, !detail::equal(detail::value_of(a), detail::value_of(b)))
+EPILINE_AP_OPERATOR(detail::are_operands, <, detail::less(detail::value_of(a), detail::value_of(b)))
+EPILINE_AP_OPERATOR(detail::are_operands, >, detail::less(detail::value_of(b), detail::value_of(a)))
+EPILINE_AP_OPERATOR(detail::are_operands, <=, !detail::less(detail::value_of(b), detail::value_of(a)))
+EPILINE_AP_OPERATOR(detail::are_operands, >=, !detail::less(detail::value_of(a), detail::value_of(b)))
+#undef EPILINE_AP_ASSIGNMENT  // EPILINE_AP_OPERATOR serves ap_fixed.h, too
 
 }  // namespace epiline::ap
 
