@@ -153,6 +153,8 @@ void check_operations(const llvm::Function& process) {
         slot != nullptr && slot->isArrayAllocation() && !llvm::isa<llvm::ConstantInt>(slot->getArraySize()))
       refuse(place_of(instruction),
              "the size of an array is known only at run time: give it the largest size as a constant");
+    if (instruction.getType()->getScalarType()->isFloatingPointTy() && instruction.getType()->isVectorTy())
+      refuse(place_of(instruction), "floating point in a struct: use ap_fixed or ap_int instead");  // in C's registers
     if (instruction.getType()->isVectorTy())
       refuse(place_of(instruction), "a vector type of the compiler: use an array and a loop over it");
     check_memory_operation(instruction);

@@ -50,9 +50,6 @@ std::vector<message> parse(const std::string& text) {
 /// What to do about what clang found.
 std::string advice_for(const std::string& text) {
   static const std::pair<std::regex, const char*> known[] = {
-      {std::regex("'hls_math.h' file not found"),
-       "mathematical functions are not supported: use integer arithmetic, or a constexpr table"},
-      {std::regex("'hls_vector.h' file not found"), "hls::vector is not supported: use a struct with an array in it"},
       {std::regex("'hls_(task|streamofblocks|np_channel|burst_maxi).*' file not found"),
        "tasks and memory bursts are not supported: use functions over hls::stream"},
       {std::regex("'.*xf_.*' file not found"),
