@@ -90,7 +90,7 @@ BUFFER = """
 OUTPUT = """
   (* anyconst *) reg [{counter}:0] {n}_formal_watched;
   reg [{top}:0] {n}_formal_expected, {n}_formal_offered;
-  reg {n}_formal_waited, {n}_formal_filled;
+  reg {n}_formal_waited, {n}_formal_filled, {n}_formal_overdue;
   wire [{counter}:0] {n}_formal_fill = {n}_in - {n}_out;
   wire [{counter}:0] {n}_formal_sent = {n}_out - {{{zeros}, {n}_word_there}};
   wire [{counter}:0] {n}_formal_ahead = {n}_formal_watched - {n}_formal_sent;
@@ -101,6 +101,7 @@ OUTPUT = """
     {n}_formal_waited <= ~rst & ~resetting & {valid} & ~{ready};
     {n}_formal_offered <= {n}_word;
     {n}_formal_filled <= ~rst & ~resetting & ({n}_in != {n}_out);
+    {n}_formal_overdue <= ~rst & ~resetting & {n}_formal_filled & ~{valid};
   end
   always @* if (formal_started) begin
     if ({n}_formal_waited) assert ({valid} && {n}_word == {n}_formal_offered);
@@ -113,9 +114,11 @@ OUTPUT = """
       assert ({n}_credits <= {depth} && {n}_credits >= valid[1]);
       // The watched token comes out under its number.
       if ({valid} && {n}_formal_ahead == 0) assert ({n}_word == {n}_formal_expected);
-      // No deadlock: what is in the FIFO is offered in the next clock.
-      if ({n}_formal_filled) assert ({valid});
+      // No deadlock: what is in the FIFO is offered in the next clock or in the one after it.
+      if ({n}_formal_overdue) assert ({valid});
       // Inside.
+      assert ({n}_after_out == {n}_out + 1'b1);
+      if ({n}_waits) assert ({n}_in != {n}_out);
       if ({n}_formal_ahead < {n}_formal_held && !({valid} && {n}_formal_ahead == 0))
         assert ({n}_fifo[{n}_formal_watched[{pointer}:0]] == {n}_formal_expected);
     end
@@ -180,7 +183,7 @@ def with_handshake_properties(verilog, module):
             text += OFFER.format(n=name, top=top, valid=f"m_axis_{output}_tvalid", ready=f"m_axis_{output}_tready")
     for name in outputs:
         width, last = re.search(rf"reg \[(\d+):0\] {name}_fifo \[0:(\d+)\]", verilog).groups()
-        counter = int(re.search(rf"reg \[(\d+):0\] {name}_in, {name}_out;", verilog)[1])
+        counter = int(re.search(rf"reg \[(\d+):0\] {name}_in, {name}_out, {name}_after_out;", verilog)[1])
         stage = int(re.search(rf"wire {name}_push = valid\[(\d+)\]", verilog)[1])
         zeros = f"{counter}'d0"
         on_the_way = " + ".join(f"{{{zeros}, valid[{i}]}}" for i in range(2, stage + 1)) or f"{counter + 1}'d0"

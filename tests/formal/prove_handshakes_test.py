@@ -48,6 +48,10 @@ module_faults = [
     ("output: an offer taken back", r"m_word_there <= m_load \| .*;", "m_word_there <= m_load;"),
     ("output: a word that changes", r"if \(m_load\) m_word <=", "m_word <="),
     ("output: a word that is offered late", r"wire m_load = ", "wire m_load = ~s_push & "),
+    ("output: a word out of an empty FIFO", r"m_waits <= m_in != \(.*\);", "m_waits <= 1'b1;"),
+    ("output: a word that nobody hears of", r"m_waits <= m_in != \(.*\);", "m_waits <= 1'b0;"),
+    ("output: a word that is taken twice", r"m_waits <= m_in != \(.*\);", "m_waits <= m_in != m_out;"),
+    ("output: a place that is left out", r"m_after_out <= m_after_out \+ 4'd1", "m_after_out <= m_after_out + 4'd2"),
     ("output: a word at another place", r"m_fifo\[m_in\[2:0\]\] <= m_data", "m_fifo[~m_in[2:0]] <= m_data"),
     ("issue while a reset drains the pipeline", r"      holding <= 1'b1;", "      holding <= 1'b0;"),
 ]
