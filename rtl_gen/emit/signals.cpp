@@ -106,6 +106,8 @@ const std::vector<meaning>& meanings() {
         {"_word", "the FIFO of '{0}': the token that has left it last"},
         {"_word_there", "1 when the token that has left the FIFO of '{0}' waits for the output"},
         {"_load", "1 when the FIFO of '{0}' gives a token to its output"},
+        {"_leaves", "1 when a token has just left the FIFO of '{0}'"},
+        {"_holds_(one|another)", "whether the FIFO of '{0}' holds {1} token"},
         {"_left", "1 when a token has left the FIFO of '{0}'"},
         {"_end_(first|second|fills_second|reads_second|there|ready|take|push|token)",
          "the two registers through which '{0}' gives out its tokens"},

@@ -339,7 +339,7 @@ TEST(make_plan, gives_fifos_room_for_all_in_flight) {
     const schedule::result s = schedule::make_schedule(g, model, {});
     const emit::plan p = emit::make_plan(g, model, s);
     ASSERT_EQ(p.fifos.size(), 1u);
-    EXPECT_GE(p.fifos[0].depth, static_cast<unsigned>(s.depth + 5));
+    EXPECT_GE(p.fifos[0].depth, static_cast<unsigned>(s.depth + 6));
     EXPECT_EQ(p.fifos[0].depth & (p.fifos[0].depth - 1), 0u);
   }
 }

@@ -109,7 +109,7 @@ OUTPUT = """
       // Whatever is on its way has room, so nothing overflows.
       assert ({n}_formal_fill <= {depth});
       if ({n}_push) assert ({n}_formal_fill < {depth});
-      assert ({n}_credits + {n}_formal_on_the_way + {n}_formal_fill + {n}_left{skipped} == {depth});
+      assert ({n}_credits + {n}_formal_on_the_way + {n}_formal_fill + {n}_leaves + {n}_left{skipped} == {depth});
       if (may_issue) assert ({n}_credits > 1);
       assert ({n}_credits <= {depth} && {n}_credits >= valid[1]);
       // The watched token comes out under its number.
