@@ -17,6 +17,7 @@
 #include "check/verdicts.hpp"
 #include "dataflow/network_text.hpp"
 #include "frontend/parameter_members.hpp"
+#include "frontend/stream_arrays.hpp"
 
 namespace epiline::check {
 
@@ -384,6 +385,7 @@ bool checker::wants(std::string_view level) const { return state_->wants(level);
 
 void checker::see_source(llvm::Module& module) {
   state_->top.members = frontend::parameter_members(module, state_->top.source.top);
+  state_->top.stream_arrays = frontend::stream_arrays(module);
   if (wants("ir-source")) state_->top.source_ir = executable_source(module);
 }
 

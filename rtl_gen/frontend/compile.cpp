@@ -17,6 +17,7 @@
 #include "frontend/messages.hpp"
 #include "frontend/pragmas.hpp"
 #include "frontend/source.hpp"
+#include "frontend/stream_arrays.hpp"
 
 namespace epiline::frontend {
 
@@ -90,16 +91,25 @@ std::vector<std::string> files_of(const std::string& preprocessed) {
 
 std::string wrapper_source(const source_options& options) {
   // The flow's headers first: the source may define macros of any name.
-  return fmt::format(
-      "#include <epiline/call_top.hpp>\n#include \"{}\"\n#line 1 \"{}\"\n"
-      "extern \"C\" void {}() {{ epiline::detail::call_for_ever<&::{}>(&::{}); }}\n",
-      fs::absolute(options.source).lexically_normal().string(), wrapper_file, process_name, options.top, options.top);
+  return fmt::format("#include <epiline/call_top.hpp>\n#include \"{}\"\n",
+                     fs::absolute(options.source).lexically_normal().string());
+}
+
+/// The call of the top, behind the preprocessed source. The sizes of arrays are expressions in the top's namespace.
+std::string call_source(const source_options& options, const std::vector<std::string>& array_sizes) {
+  std::string counts;
+  for (const std::string& size : array_sizes) counts += size.empty() ? ", 0" : fmt::format(", ({})", size);
+  const llvm::StringRef top = llvm::StringRef(options.top).ltrim(':');
+  const std::string space =
+      top.contains("::") ? fmt::format("using namespace ::{}; ", top.rsplit("::").first.str()) : "";
+  return fmt::format("# 1 \"{}\"\nextern \"C\" void {}() {{ {}epiline::detail::call_for_ever<&::{}{}>(&::{}); }}\n",
+                     wrapper_file, process_name, space, options.top, counts, options.top);
 }
 
 [[noreturn]] void refuse_compilation(const source_options& options, const std::string& messages,
                                      const std::string& program, const pragma_places& pragmas = {}) {
   if (messages.find(std::string(wrapper_file) + ":1:") == std::string::npos &&
-      messages.find("the top returns a value") == std::string::npos)
+      messages.find("the top returns a pointer") == std::string::npos)
     throw refused(explain_messages(messages, pragmas));
   // The call of the top does not compile: what is the top then?
   const std::string listing = program + ".txt";
@@ -150,9 +160,11 @@ compiled_source compile(const source_options& options, llvm::LLVMContext& contex
   for (const std::string& definition : options.definitions) preprocess.push_back("-D" + definition);
   if (!run_clang(preprocess, messages)) refuse_compilation(options, read_file(messages), preprocessed);
 
-  if (options.on_preprocessed) options.on_preprocessed(read_file(preprocessed));
+  std::string source = read_file(preprocessed);
+  source += call_source(options, sizes_of_array_parameters(source, options.top));
+  if (options.on_preprocessed) options.on_preprocessed(source);
   compiled_source result;
-  pragma_rewrite rewritten = rewrite_pragmas(read_file(preprocessed));
+  pragma_rewrite rewritten = rewrite_pragmas(source);
   result.notes = std::move(rewritten.notes);
   result.dependencies = files_of(rewritten.source);
   std::erase(result.dependencies, wrapper);

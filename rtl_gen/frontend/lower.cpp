@@ -94,8 +94,10 @@ class port_lowering {
   /// The reasons of call_top.hpp.
   [[noreturn]] void refuse_parameter(const llvm::CallInst& call) const {
     static const char* const reasons[] = {
-        "is a pointer or array: pass data through hls::stream references",
-        "is an array by reference: pass data through hls::stream references, or a struct of few members",
+        ("is a pointer or array: pass data through hls::stream references, or an array of one dimension of streams, "
+         "written with its size"),
+        ("is an array by reference: pass data through hls::stream references, an array of one dimension of them, or a "
+         "struct of few members"),
         "is a stream by value or by const reference: pass it as hls::stream<T>&",
         "is an rvalue reference: pass a scalar by value"};
     const auto reason = llvm::cast<llvm::ConstantInt>(call.getArgOperand(1))->getZExtValue();

@@ -183,14 +183,12 @@ std::string explain_top(const std::string& top, const std::string& source, const
     if (exact->kind != "Function")
       return say(*exact, fmt::format("is a {}, not a function: name the function to synthesize with --top",
                                      exact->kind == "Var" ? "variable" : "type"));
-    if (!llvm::StringRef(exact->type).starts_with("void "))
-      return say(*exact,
-                 "returns a value: a top returns void; give results through an hls::stream or a scalar by "
-                 "reference");
+    if (const llvm::StringRef result = llvm::StringRef(exact->type).split('(').first.rtrim();
+        result.ends_with("*") || result.ends_with("&"))
+      return say(*exact, "returns a pointer or reference: return a value, or give results through an hls::stream");
     if (exact->type.find("...") != std::string::npos)
       return say(*exact, "takes a variable number of arguments: name every port");
-    return say(*exact,
-               "cannot be a top: a top is a function that returns void and takes hls::stream references and scalars");
+    return say(*exact, "cannot be a top: a top is a function that takes hls::stream references and scalars");
   }
   for (const named& one : found) {
     if (!llvm::StringRef(one.name).ends_with("::" + wanted)) continue;

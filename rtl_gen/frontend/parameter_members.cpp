@@ -5,6 +5,7 @@
 #include <llvm/IR/DebugInfoMetadata.h>
 
 #include "frontend/processes.hpp"
+#include "frontend/stream_arrays.hpp"
 
 namespace epiline::frontend {
 
@@ -25,6 +26,9 @@ const llvm::DIType* bare(const llvm::DIType* type) {
 /// The T of hls::stream<T, DEPTH>; other types themselves.
 const llvm::DIType* payload_of(const llvm::DIType* type) {
   const auto* composite = llvm::dyn_cast_or_null<llvm::DICompositeType>(type);
+  if (composite != nullptr && composite->getTag() == llvm::dwarf::DW_TAG_array_type &&
+      payload_of(bare(composite->getBaseType())) != bare(composite->getBaseType()))
+    return payload_of(bare(composite->getBaseType()));  // an array of streams
   if (composite == nullptr || !composite->getName().starts_with("stream<")) return type;
   const llvm::DITemplateParameterArray parameters = composite->getTemplateParams();
   if (parameters.empty()) return nullptr;
@@ -82,12 +86,23 @@ std::vector<std::optional<std::string>> parameter_members(llvm::Module& module, 
   std::vector<std::optional<std::string>> result;
   const llvm::Function* function = find_top(module, top);
   if (function == nullptr) return result;
+  const std::map<unsigned, unsigned> arrays = stream_arrays(module);
+  const auto add = [&](const llvm::DIType* type, unsigned times) {
+    std::string text;
+    const bool known = visit(payload_of(type), "v", 0, text);
+    result.insert(result.end(), times, known ? std::optional(text) : std::nullopt);
+  };
   const llvm::DITypeRefArray types = function->getSubprogram()->getType()->getTypeArray();
   for (unsigned i = 1; i < types.size(); ++i) {
-    std::string text;
-    const bool known = visit(payload_of(bare(types[i])), "v", 0, text);
-    result.push_back(known ? std::optional(text) : std::nullopt);
+    const auto array = arrays.find(i - 1);
+    const llvm::DIType* type = bare(types[i]);
+    if (array != arrays.end())
+      if (const auto* pointer = llvm::dyn_cast_or_null<llvm::DIDerivedType>(type);
+          pointer != nullptr && pointer->getTag() == llvm::dwarf::DW_TAG_pointer_type)
+        type = bare(pointer->getBaseType());
+    add(type, array == arrays.end() ? 1 : array->second);
   }
+  if (returned_position(module) != 0) add(bare(types[0]), 1);
   return result;
 }
 

@@ -128,6 +128,9 @@ std::string reset_call(const pragma_line& pragma, const source_place& place) {
   return fmt::format("__epiline_pragma_reset((const void*)&({}));", variable);
 }
 
+/// Elements of a dimension that ARRAY_PARTITION cyclic or block takes apart.
+constexpr unsigned longest_banked = 64;
+
 std::string partition_call(const pragma_line& pragma, const source_place& place, std::vector<std::string>& notes) {
   const std::string variable = pragma.get("variable");
   check_options(pragma, {"variable", "type", "complete", "cyclic", "block", "factor", "dim"}, place);
@@ -135,15 +138,17 @@ std::string partition_call(const pragma_line& pragma, const source_place& place,
       type != "complete" && type != "cyclic" && type != "block")
     refuse(place, fmt::format("#pragma HLS ARRAY_PARTITION type={}: it is complete, cyclic or block", type));
   if (variable.empty()) refuse(place, "#pragma HLS ARRAY_PARTITION without variable=NAME: name the array");
+  const std::string dimension = number_of(pragma, "dim", 1, 0, place);
   if (has_kind(pragma, "cyclic") || has_kind(pragma, "block")) {
-    notes.push_back(
-        fmt::format("{}:{}: note: ARRAY_PARTITION cyclic/block of '{}' has no effect: memories get as many "
-                    "read ports as the code needs; use 'complete' for registers",
-                    place.file, place.line, variable));
-    return "";
+    static_cast<void>(number_of(pragma, "factor", 1, 1, place));
+    notes.push_back(fmt::format(
+        "{}:{}: note: ARRAY_PARTITION cyclic/block of '{}': a dimension of up to {} elements is taken apart "
+        "as by 'complete'; a longer one stays in memory, which gets as many read ports as the code needs "
+        "and takes one write an iteration",
+        place.file, place.line, variable, longest_banked));
+    return fmt::format("__epiline_banks<{}, {}>({});", dimension, longest_banked, variable);
   }
-  return fmt::format("__epiline_pragma_partition((const void*)&({}), {});", variable,
-                     number_of(pragma, "dim", 1, 0, place));
+  return fmt::format("__epiline_partition({}, {});", variable, dimension);
 }
 
 void check_interface(const pragma_line& pragma, const source_place& place) {
@@ -231,18 +236,37 @@ bool follow_marker(llvm::StringRef line, source_place& place) {
   return true;
 }
 
+/// What pragmas become, in one line: an array that is a function's parameter is a pointer, and the pragma speaks of
+/// what it points at. Streams in an array are apart by nature.
+constexpr const char* declarations =
+    "extern \"C\" { void __epiline_pragma_pipeline(int) noexcept; void __epiline_pragma_unroll(int) noexcept; "
+    "void __epiline_pragma_dependence(const void*, int) noexcept; void __epiline_pragma_reset(const void*) noexcept; "
+    "void __epiline_pragma_partition(const void*, int) noexcept; void __epiline_pragma_dataflow() noexcept; "
+    "void __epiline_pragma_stream(const void*, long) noexcept; } "
+    "template <class T> struct __epiline_element { using type = T; }; "
+    "template <class T> struct __epiline_element<T*> : __epiline_element<T> {}; "
+    "template <class T, unsigned long N> struct __epiline_element<T[N]> : __epiline_element<T> {}; "
+    "template <class T> constexpr bool __epiline_is_stream(decltype(T::is_stream_of_tokens)*) { return true; } "
+    "template <class T> constexpr bool __epiline_is_stream(...) { return false; } "
+    "template <class T> inline void __epiline_partition(const T& object, int dimension) { "
+    "if constexpr (__epiline_is_stream<typename __epiline_element<T>::type>(nullptr)) {} "
+    "else if constexpr (__is_pointer(T)) __epiline_pragma_partition((const void*)object, dimension); "
+    "else __epiline_pragma_partition((const void*)&object, dimension); } "
+    "template <class T, int D> struct __epiline_length { static constexpr unsigned long value = 0; }; "
+    "template <class T, unsigned long N, int D> struct __epiline_length<T[N], D> : __epiline_length<T, D - 1> {}; "
+    "template <class T, unsigned long N> struct __epiline_length<T[N], 1> { static constexpr auto value = N; }; "
+    "template <class T, unsigned long N> struct __epiline_length<T[N], 0> { static constexpr auto value = "
+    "sizeof(T[N]) / sizeof(typename __epiline_element<T>::type); }; "
+    "template <int D, unsigned long longest, class T> inline void __epiline_banks(const T& object) { "
+    "if constexpr (__is_pointer(T)) { if constexpr (D > 1) "
+    "if constexpr (__epiline_length<__remove_pointer(T), D - 1>::value <= longest) __epiline_partition(object, D); } "
+    "else if constexpr (__epiline_length<T, D>::value <= longest) __epiline_partition(object, D); }\n";
+
 }  // namespace
 
 pragma_rewrite rewrite_pragmas(const std::string& preprocessed) {
   pragma_rewrite result;
-  result.source =
-      "extern \"C\" void __epiline_pragma_pipeline(int) noexcept; extern \"C\" void __epiline_pragma_unroll(int) "
-      "noexcept; "
-      "extern \"C\" void __epiline_pragma_dependence(const void*, int) noexcept; "
-      "extern \"C\" void __epiline_pragma_reset(const void*) noexcept; "
-      "extern \"C\" void __epiline_pragma_partition(const void*, int) noexcept; "
-      "extern \"C\" void __epiline_pragma_dataflow() noexcept; "
-      "extern \"C\" void __epiline_pragma_stream(const void*, long) noexcept;\n";
+  result.source = fmt::format("# 1 \"<pragmas>\"\n{}", declarations);
   source_place place;
   llvm::StringRef rest = preprocessed;
   while (!rest.empty()) {

@@ -23,6 +23,7 @@
 #include "frontend/process_objects.hpp"
 #include "frontend/shared_variables.hpp"
 #include "frontend/start_up.hpp"
+#include "frontend/stream_arrays.hpp"
 
 namespace epiline::frontend {
 
@@ -119,7 +120,8 @@ unsigned depth_of(const llvm::DICompositeType& type) {
 /// A function that can be a process: one that takes streams and is not one of the streams' own.
 bool takes_streams(const llvm::Function& function) {
   const llvm::DISubprogram* program = function.getSubprogram();
-  if (program == nullptr || stream_type(llvm::dyn_cast_or_null<llvm::DIType>(program->getScope()), false) != nullptr)
+  if (program == nullptr || program->getName().starts_with("__epiline_") ||  // of a pragma
+      stream_type(llvm::dyn_cast_or_null<llvm::DIType>(program->getScope()), false) != nullptr)
     return false;
   const llvm::DITypeRefArray types = program->getType()->getTypeArray();
   for (unsigned i = 1; i < types.size(); ++i)
@@ -144,16 +146,29 @@ std::vector<llvm::CallInst*> calls_of(llvm::Module& module, const char* name, co
   return calls;
 }
 
-/// The top's place and parameter names, out of its debug information.
-top_description describe_top(const llvm::Function* top) {
+/// The top's place and parameter names, out of its debug information. Each stream of an array counts as a parameter,
+/// and what is returned as the last.
+top_description describe_top(const llvm::Function* top, llvm::Module& module) {
   top_description result;
   if (top == nullptr) return result;
+  const std::map<unsigned, unsigned> arrays = stream_arrays(module);
+  const auto add = [&](unsigned position, const std::string& name) {
+    const unsigned index = flat_index(arrays, position);
+    const auto array = arrays.find(position);
+    if (array == arrays.end()) {
+      result.parameters.try_emplace(index, name);
+      return;
+    }
+    for (unsigned i = 0; i < array->second; ++i)
+      result.parameters.try_emplace(index + i, fmt::format("{}_{}", name, i));
+  };
   result.place = place_of(*top);
   for (const llvm::Instruction& instruction : llvm::instructions(*top))
     for (const llvm::DbgVariableRecord& record : llvm::filterDbgVars(instruction.getDbgRecordRange()))
       if (const unsigned argument = record.getVariable()->getArg();
           argument != 0 && record.getVariable()->getScope()->getSubprogram() == top->getSubprogram())
-        result.parameters.try_emplace(argument - 1, record.getVariable()->getName().str());
+        add(argument - 1, record.getVariable()->getName().str());
+  if (const unsigned returned = returned_position(module); returned != 0) add(returned, returned_name);
   return result;
 }
 
@@ -177,13 +192,18 @@ class splitter {
       : source_(source), module_(*source.module), process_(*module_.getFunction(process_name)) {
     module_.setIsNewDbgInfoFormat(true);
     top_function_ = find_top(module_, options.top);
-    result_.top = describe_top(top_function_);
+    result_.top = describe_top(top_function_, module_);
     if (result_.top.place.line == 0)
       refuse(
           {options.source, line_of_top(options)},
           fmt::format("top '{}' is declared but not defined in this file: name the file that defines it", options.top));
     if (result_.top.parameters.empty())
       refuse(result_.top.place, "the top has no parameters: ports are made of them: give it hls::stream references");
+    std::set<std::string> names;
+    for (const auto& [index, name] : result_.top.parameters)
+      if (!name.empty() && !names.insert(name).second)
+        refuse(result_.top.place,
+               fmt::format("two ports are named '{}', one of them for a stream of an array: rename a parameter", name));
     result_.name = options.top.substr(options.top.rfind(':') + 1);
   }
 

@@ -17,9 +17,9 @@ TEST(messages, keep_line_text_and_excerpt_and_lose_the_rest) {
 }
 
 TEST(messages, say_what_to_do) {
-  EXPECT_EQ(explain_messages("/k/fir.cpp:1:10: fatal error: 'hls_math.h' file not found\n", {}),
-            "/k/fir.cpp:1: error: 'hls_math.h' file not found: mathematical functions are not supported: use integer "
-            "arithmetic, or a constexpr table");
+  EXPECT_EQ(explain_messages("/k/fir.cpp:1:10: fatal error: 'hls_task.h' file not found\n", {}),
+            "/k/fir.cpp:1: error: 'hls_task.h' file not found: tasks and memory bursts are not supported: use "
+            "functions over hls::stream");
   EXPECT_EQ(explain_messages("/k/fir.cpp:1:10: fatal error: 'other.h' file not found\n", {}),
             "/k/fir.cpp:1: error: 'other.h' file not found: name its folder with -I");
 }
@@ -68,7 +68,8 @@ TEST(explain_top, tells_what_the_name_is) {
   const std::pair<std::string, const char*> cases[] = {
       {listing("f", function) + listing("f", other), "k.cpp:4: error: 'f' is overloaded"},
       {listing("f", "FunctionTemplateDecl 0x1 <k.cpp:1:1, line:2:3> line:2:6 f"), "k.cpp:1: error: 'f' is a template"},
-      {listing("f", "FunctionDecl 0x1 <k.cpp:3:1, col:9> col:5 f 'int (int)'"), "k.cpp:3: error: 'f' returns a value"},
+      {listing("f", "FunctionDecl 0x1 <k.cpp:3:1, col:9> col:5 f 'int *(int)'"),
+       "k.cpp:3: error: 'f' returns a pointer or reference"},
       {listing("f", "FunctionDecl 0x1 <k.cpp:3:1, col:9> col:5 f 'void (int, ...)'"),
        "k.cpp:3: error: 'f' takes a variable number of arguments"},
       {listing("f", "VarDecl 0x1 <k.cpp:5:1, col:9> col:5 f 'int'"), "k.cpp:5: error: 'f' is a variable"},

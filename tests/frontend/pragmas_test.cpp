@@ -18,16 +18,16 @@ using testing::IsEmpty;
 std::string rewritten(const std::string& line, std::vector<std::string>* notes = nullptr) {
   const pragma_rewrite result = rewrite_pragmas("# 7 \"top.cpp\"\nbefore();\n" + line + "\nafter();\n");
   if (notes != nullptr) *notes = result.notes;
-  // The declarations of the calls, the marker, before(), and the line itself.
+  // The declarations of the calls behind a marker of theirs, the marker, before(), and the line itself.
   std::vector<std::string> lines;
   std::string rest = result.source;
   for (std::size_t end; (end = rest.find('\n')) != std::string::npos; rest.erase(0, end + 1)) {
     lines.push_back(rest.substr(0, end));
   }
-  EXPECT_EQ(lines.size(), 5u) << "lines must stay where they are";
-  EXPECT_EQ(lines.at(2), "before();");
-  EXPECT_EQ(lines.at(4), "after();");
-  return lines.at(3);
+  EXPECT_EQ(lines.size(), 6u) << "lines must stay where they are";
+  EXPECT_EQ(lines.at(3), "before();");
+  EXPECT_EQ(lines.at(5), "after();");
+  return lines.at(4);
 }
 
 TEST(pragmas, that_are_honoured_become_calls) {
@@ -38,9 +38,8 @@ TEST(pragmas, that_are_honoured_become_calls) {
       {"#pragma HLS PIPELINE off", ""},
       {"#pragma HLS UNROLL", "__epiline_pragma_unroll(0);"},
       {"#pragma HLS UNROLL factor=4 skip_exit_check", "__epiline_pragma_unroll(4);"},
-      {"#pragma HLS ARRAY_PARTITION variable=x complete", "__epiline_pragma_partition((const void*)&(x), 1);"},
-      {"#pragma HLS array_partition variable = x.y type=complete dim = 2",
-       "__epiline_pragma_partition((const void*)&(x.y), 2);"},
+      {"#pragma HLS ARRAY_PARTITION variable=x complete", "__epiline_partition(x, 1);"},
+      {"#pragma HLS array_partition variable = x.y type=complete dim = 2", "__epiline_partition(x.y, 2);"},
       {"#pragma HLS DEPENDENCE variable=ram inter false", "__epiline_pragma_dependence((const void*)&(ram), 1000000);"},
       {"#pragma HLS DEPENDENCE variable=ram type=inter dependent=false",
        "__epiline_pragma_dependence((const void*)&(ram), 1000000);"},
@@ -62,7 +61,7 @@ TEST(pragmas, that_are_honoured_become_calls) {
       {"#pragma HLS INTERFACE axis port = x, y", "(void)sizeof(x);(void)sizeof(y);"},
       {"#pragma HLS INTERFACE axis port=x ,return", "(void)sizeof(x);"},
       {"#pragma HLS ARRAY_PARTITION variable=x,t<1, 2>::y complete dim=0",
-       "__epiline_pragma_partition((const void*)&(x), 0);__epiline_pragma_partition((const void*)&(t<1,2>::y), 0);"},
+       "__epiline_partition(x, 0);__epiline_partition(t<1,2>::y, 0);"},
   };
   for (const auto& [line, call] : cases) EXPECT_EQ(rewritten(line), call) << line;
 }
@@ -81,8 +80,14 @@ TEST(pragmas, that_have_no_effect_leave_a_note_with_file_and_line) {
   EXPECT_EQ(rewritten("#pragma HLS BIND_STORAGE variable=x type=ram_2p", &notes), "");
   EXPECT_THAT(notes,
               ElementsAre("top.cpp:8: note: #pragma HLS BIND_STORAGE has no effect: the flow chooses this itself"));
-  EXPECT_EQ(rewritten("#pragma HLS ARRAY_PARTITION variable=x cyclic factor=2", &notes), "");
-  EXPECT_THAT(notes, ElementsAre(HasSubstr("top.cpp:8: note: ARRAY_PARTITION cyclic/block of 'x' has no effect")));
+}
+
+TEST(pragmas, that_ask_for_banks_say_what_becomes_of_them) {
+  std::vector<std::string> notes;
+  EXPECT_EQ(rewritten("#pragma HLS ARRAY_PARTITION variable=x cyclic factor=2 dim=2", &notes),
+            "__epiline_banks<2, 64>(x);");
+  EXPECT_THAT(notes, ElementsAre(HasSubstr("top.cpp:8: note: ARRAY_PARTITION cyclic/block of 'x': a dimension of up to "
+                                           "64 elements is taken apart as by 'complete'")));
 }
 
 TEST(pragmas, that_cannot_be_honoured_are_refused_with_file_and_line) {
@@ -100,6 +105,7 @@ TEST(pragmas, that_cannot_be_honoured_are_refused_with_file_and_line) {
       {"#pragma HLS PIPELINE II=99999999999", "II=99999999999: give a number from 1 on"},
       {"#pragma HLS PIPELINE interval=2", "the option 'interval' is not known: it takes ii, off"},
       {"#pragma HLS ARRAY_PARTITION variable=x dim=-1", "DIM=-1: give a number from 0 on"},
+      {"#pragma HLS ARRAY_PARTITION variable=x cyclic factor=0", "FACTOR=0: give a number from 1 on"},
       {"#pragma HLS ARRAY_PARTITION variable=x type=all", "type=all: it is complete, cyclic or block"},
       {"#pragma HLS DEPENDENCE variable=x inter distance=0", "DISTANCE=0: give a number from 1 on"},
       {"#pragma HLS INTERFACE port=x", "INTERFACE without a mode"},

@@ -31,6 +31,7 @@ template <class T>
 class stream<T, 0> {
  public:
   using value_type = T;
+  static constexpr bool is_stream_of_tokens = true;  // for the frontend's pragmas
 
   stream() = default;  // an array of streams is made without a loop
   constexpr explicit stream(const char*) {}

@@ -11,6 +11,7 @@
 
 #include <cstring>
 #include <exception>
+#include <memory>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -190,8 +191,9 @@ class slot_of<T&, Index> : public slot {  // a result
 };
 
 template <class T, int Depth, int Index>
-class slot_of<hls::stream<T, Depth>&, Index> : public slot {
+class stream_slot : public slot {
  public:
+  explicit stream_slot(hls::stream<T, Depth>& stream) : stream_(stream) {}
   void give(const token& given) override {
     T value{};
     members<Index>::visit(value, unpacker{given});
@@ -220,10 +222,60 @@ class slot_of<hls::stream<T, Depth>&, Index> : public slot {
     members<Index>::visit(value, [&](const auto& number) { bits += width_of(&number); });
     return bits;
   }
+
+ private:
+  hls::stream<T, Depth>& stream_;
+};
+
+/// A parameter: what is passed, and its slots.
+template <class P, int Index>
+class passed {
+ public:
+  static constexpr int count = 1;
+  decltype(auto) pass() { return slot_.pass(); }
+  void add_slots(std::vector<slot*>& slots) { slots.push_back(&slot_); }
+
+ private:
+  slot_of<P, Index> slot_;
+};
+
+template <class T, int Depth, int Index>
+class passed<hls::stream<T, Depth>&, Index> {
+ public:
+  static constexpr int count = 1;
   hls::stream<T, Depth>& pass() { return stream_; }
+  void add_slots(std::vector<slot*>& slots) { slots.push_back(&slot_); }
 
  private:
   hls::stream<T, Depth> stream_;
+  stream_slot<T, Depth, Index> slot_{stream_};
+};
+
+template <class T, int Depth, std::size_t Count, int Index>
+class passed<hls::stream<T, Depth> (&)[Count], Index> {
+ public:
+  static constexpr int count = Count;
+  hls::stream<T, Depth> (&pass())[Count] { return streams_; }
+  void add_slots(std::vector<slot*>& slots) {
+    for (auto& stream : streams_) {
+      made_.push_back(std::make_unique<stream_slot<T, Depth, Index>>(stream));
+      slots.push_back(made_.back().get());
+    }
+  }
+
+ private:
+  hls::stream<T, Depth> streams_[Count];
+  std::vector<std::unique_ptr<slot>> made_;
+};
+
+/// A function's array of streams is a pointer: `Count` of them.
+template <class P, int Count>
+struct as_written {
+  using type = P;
+};
+template <class T, int Depth, int Count>
+struct as_written<hls::stream<T, Depth>*, Count> {
+  using type = hls::stream<T, Depth> (&)[Count];
 };
 
 enum class role { input, output, scalar, result };
@@ -473,23 +525,57 @@ class session {
   random_source random_;
 };
 
-template <auto Top, int... Index, class... P>
-[[noreturn]] void drive(std::integer_sequence<int, Index...>, void (*)(P...), std::vector<parameter> parameters,
-                        int argc, char** argv) {
-  static std::tuple<slot_of<P, Index>...> slots;
-  session run(
-      std::move(parameters), {&std::get<Index>(slots)...},
-      [](void* all) {
-        auto& given = *static_cast<std::tuple<slot_of<P, Index>...>*>(all);
-        Top(std::get<Index>(given).pass()...);
-      },
-      &slots);
-  run.run(argc, argv);
+/// The index of the first member of each parameter: every stream of an array has one.
+template <class... P>
+constexpr int index_of(int position) {
+  const int counts[] = {passed<P, 0>::count..., 0};
+  int index = 0;
+  for (int i = 0; i < position; ++i) index += counts[i];
+  return index;
 }
 
-template <auto Top, class... P>
-[[noreturn]] void drive(void (*top)(P...), std::vector<parameter> parameters, int argc, char** argv) {
-  drive<Top>(std::make_integer_sequence<int, sizeof...(P)>{}, top, std::move(parameters), argc, argv);
+template <auto Top, class Result, class... P, int... Position>
+[[noreturn]] void drive(std::integer_sequence<int, Position...>, std::vector<parameter> parameters, int argc,
+                        char** argv) {
+  using all_passed = std::tuple<passed<P, index_of<P...>(Position)>...>;
+  static all_passed given;
+  std::vector<slot*> slots;
+  (std::get<Position>(given).add_slots(slots), ...);
+  if constexpr (std::is_void_v<Result>) {
+    session run(
+        std::move(parameters), std::move(slots),
+        [](void* all) { Top(std::get<Position>(*static_cast<all_passed*>(all)).pass()...); }, &given);
+    run.run(argc, argv);
+  } else {
+    static slot_of<Result&, index_of<P...>(sizeof...(P))> returned;
+    slots.push_back(&returned);
+    session run(
+        std::move(parameters), std::move(slots),
+        [](void* all) { returned.pass() = Top(std::get<Position>(*static_cast<all_passed*>(all)).pass()...); }, &given);
+    run.run(argc, argv);
+  }
+}
+
+template <int... Counts>
+struct stream_counts {
+  static constexpr int at(int position) {
+    const int counts[] = {Counts..., 0};
+    return position < static_cast<int>(sizeof...(Counts)) ? counts[position] : 0;
+  }
+};
+
+template <auto Top, class Counts, class Result, class... P, int... Position>
+[[noreturn]] void drive_written(std::integer_sequence<int, Position...> positions, std::vector<parameter> parameters,
+                                int argc, char** argv) {
+  drive<Top, Result, typename as_written<P, Counts::at(Position)>::type...>(positions, std::move(parameters), argc,
+                                                                            argv);
+}
+
+/// `Counts`: of the streams in each parameter that is an array of them, or 0.
+template <auto Top, int... Counts, class Result, class... P>
+[[noreturn]] void drive(Result (*)(P...), std::vector<parameter> parameters, int argc, char** argv) {
+  drive_written<Top, stream_counts<Counts...>, Result, P...>(std::make_integer_sequence<int, sizeof...(P)>(),
+                                                             std::move(parameters), argc, argv);
 }
 
 }  // namespace epiline::check

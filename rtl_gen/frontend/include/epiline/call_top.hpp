@@ -3,7 +3,8 @@
 // synthesis build only; the frontend gives the __epiline_* functions their meaning.
 //
 // The parameters become ports by their types: a stream by reference is a port of its own; scalars by value (or const
-// reference) are the fields of one argument token a call; scalars by reference are output streams of one token a call.
+// reference) are the fields of one argument token a call; scalars by reference, and what the top returns, are output
+// streams of one token a call. An array of streams counts as that many parameters, and so does what is returned.
 
 #include <ap_int.h>
 #include <hls_stream.h>
@@ -14,6 +15,8 @@ void __epiline_result(int index, const void* value, const void* type) noexcept;
 void __epiline_port(int index, const void* stream) noexcept;
 void __epiline_unwritten(int index, void* value, const void* type) noexcept;
 void __epiline_unsupported_parameter(int index, int reason) noexcept;
+void __epiline_array(int position, int count) noexcept;
+void __epiline_returned(int position) noexcept;
 }
 
 namespace epiline::detail {
@@ -89,6 +92,26 @@ struct stream_parameter {
 template <class T, int Depth, int Index>
 struct parameter<hls::stream<T, Depth>&, Index> : stream_parameter<hls::stream<T, Depth>, Index> {};
 
+template <int Index, class Stream, unsigned long Count>
+struct stream_ports {
+  static Stream objects[Count];
+};
+
+template <class T, int Depth, unsigned long Count, int Index>
+struct parameter<hls::stream<T, Depth> (&)[Count], Index> {
+  using stream = hls::stream<T, Depth>;
+  using ports = stream_ports<Index, stream, Count>;
+  parameter() { name_ports(std::make_integer_sequence<int, Count>()); }
+  stream (&pass() const)[Count] { return ports::objects; }
+  void finish() const {}
+
+ private:
+  template <int... I>
+  void name_ports(std::integer_sequence<int, I...>) {
+    (__epiline_port(Index + I, &ports::objects[I]), ...);
+  }
+};
+
 // The frontend has a sentence for each.
 enum class reason { pointer, array, stream_by_value, rvalue };
 
@@ -116,39 +139,76 @@ constexpr bool is_unsupported(const unsupported_parameter<Index, Reason>*) {
   return true;
 }
 
-template <int... Index>
-struct indices {};
+// An array of streams that a function takes has become a pointer by now; how many there are the frontend has read.
+template <class P, int Count>
+struct as_written {
+  using type = P;
+};
+template <class T, int Depth, int Count>
+struct as_written<hls::stream<T, Depth>*, Count> {
+  using type =
+      std::conditional_t<Count == 0, hls::stream<T, Depth>*, hls::stream<T, Depth> (&)[Count == 0 ? 1 : Count]>;
+};
 
-template <auto Top, class... Parameters>
+template <class P>
+inline constexpr int streams_in_array = 0;
+template <class T, int Depth, unsigned long Count>
+inline constexpr int streams_in_array<hls::stream<T, Depth> (&)[Count]> = Count;
+
+/// The index of the parameter at a position, behind all those that the arrays before it count as.
+template <class... P>
+constexpr int index_of(int position) {
+  const int counts[] = {streams_in_array<P>..., 0};
+  int index = position;
+  for (int i = 0; i < position; ++i) index += counts[i] == 0 ? 0 : counts[i] - 1;
+  return index;
+}
+
+template <class P, int Position>
+void note_array() {
+  if constexpr (streams_in_array<P> != 0) __epiline_array(Position, streams_in_array<P>);
+}
+
+template <auto Top, class Result, int ResultIndex, class... Parameters>
 void pass_parameters(Parameters&&... parameters) {
   if constexpr (!(is_unsupported(static_cast<Parameters*>(nullptr)) || ...)) {
-    Top(parameters.pass()...);
+    if constexpr (std::is_void_v<Result>) {
+      Top(parameters.pass()...);
+    } else {
+      __epiline_returned(sizeof...(Parameters));
+      parameter<Result&, ResultIndex> returned;
+      returned.pass() = Top(parameters.pass()...);
+      returned.finish();
+    }
     (parameters.finish(), ...);
   }
 }
 
-template <class T>
-inline constexpr bool is_void = false;
-template <>
-inline constexpr bool is_void<void> = true;
-
-template <auto Top, class... P, int... Index>
-void call_once(void (*)(P...), indices<Index...>) {
-  pass_parameters<Top>(parameter<P, Index>{}...);
+template <auto Top, class Result, class... P, int... Position>
+void call_once(Result (*)(P...), std::integer_sequence<int, Position...>) {
+  (note_array<P, Position>(), ...);
+  pass_parameters<Top, Result, index_of<P...>(sizeof...(P))>(parameter<P, index_of<P...>(Position)>{}...);
 }
 
-template <int Count, int... Index>
-struct make_indices : make_indices<Count - 1, Count - 1, Index...> {};
-template <int... Index>
-struct make_indices<0, Index...> {
-  using type = indices<Index...>;
+template <int... Counts>
+struct stream_counts {
+  static constexpr int at(int position) {
+    const int counts[] = {Counts..., 0};
+    return position < static_cast<int>(sizeof...(Counts)) ? counts[position] : 0;
+  }
 };
 
-template <auto Top, class Result, class... P>
-void call_for_ever(Result (*)(P...)) {
-  static_assert(is_void<Result>, "the top returns a value");
-  void (*top)(P...) = nullptr;
-  for (;;) call_once<Top>(top, typename make_indices<sizeof...(P)>::type{});
+template <auto Top, class Counts, class Result, class... P, int... Position>
+void call_written(Result (*)(P...), std::integer_sequence<int, Position...> positions) {
+  Result (*top)(typename as_written<P, Counts::at(Position)>::type...) = nullptr;
+  for (;;) call_once<Top>(top, positions);
+}
+
+/// `Counts`: of the streams in each parameter written as an array, or 0.
+template <auto Top, int... Counts, class Result, class... P>
+void call_for_ever(Result (*top)(P...)) {
+  static_assert(!std::is_pointer_v<Result> && !std::is_reference_v<Result>, "the top returns a pointer");
+  call_written<Top, stream_counts<Counts...>>(top, std::make_integer_sequence<int, sizeof...(P)>());
 }
 
 }  // namespace epiline::detail

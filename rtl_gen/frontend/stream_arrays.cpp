@@ -1,0 +1,122 @@
+#include "frontend/stream_arrays.hpp"
+
+#include <llvm/ADT/StringExtras.h>
+#include <llvm/ADT/StringRef.h>
+#include <llvm/IR/Constants.h>
+#include <llvm/IR/Instructions.h>
+
+namespace epiline::frontend {
+
+namespace {
+
+bool is_of_name(char c) { return llvm::isAlnum(c) || c == '_'; }
+
+/// Where the bracket that opens at `open` is closed; npos: nowhere.
+std::size_t closing(llvm::StringRef text, std::size_t open) {
+  int depth = 0;
+  for (std::size_t at = open; at < text.size(); ++at) {
+    if (llvm::StringRef("([{").contains(text[at])) ++depth;
+    if (llvm::StringRef(")]}").contains(text[at]) && --depth == 0) return at;
+  }
+  return llvm::StringRef::npos;
+}
+
+/// Splits a parameter list at its own commas, not at those of templates' arguments or in brackets.
+std::vector<llvm::StringRef> split_parameters(llvm::StringRef list) {
+  std::vector<llvm::StringRef> parts;
+  std::size_t begin = 0;
+  int angles = 0;
+  for (std::size_t at = 0; at < list.size(); ++at) {
+    if (llvm::StringRef("([{").contains(list[at])) {
+      at = closing(list, at);
+      if (at == llvm::StringRef::npos) return {};
+    } else if (list[at] == '<') {
+      ++angles;
+    } else if (list[at] == '>') {
+      --angles;
+    } else if (list[at] == ',' && angles == 0) {
+      parts.push_back(list.slice(begin, at));
+      begin = at + 1;
+    }
+  }
+  if (!list.trim().empty()) parts.push_back(list.drop_front(begin));
+  return parts;
+}
+
+/// `EXPRESSION` of `TYPE NAME[EXPRESSION]`; empty for everything else.
+std::string array_size(llvm::StringRef parameter) {
+  parameter = parameter.rtrim();
+  if (!parameter.ends_with("]")) return "";
+  std::size_t open = parameter.find('[');
+  while (open != llvm::StringRef::npos && closing(parameter, open) + 1 != parameter.size())
+    open = parameter.find('[', closing(parameter, open));
+  if (open == llvm::StringRef::npos) return "";
+  const llvm::StringRef before = parameter.take_front(open).rtrim();
+  if (before.empty() || !is_of_name(before.back())) return "";
+  return parameter.slice(open + 1, parameter.size() - 1).trim().str();
+}
+
+std::string without_line_markers(const std::string& preprocessed) {
+  std::string text;
+  llvm::StringRef rest = preprocessed;
+  while (!rest.empty()) {
+    const auto [line, after] = rest.split('\n');
+    rest = after;
+    if (!line.starts_with("#")) text += line.str() + "\n";
+  }
+  return text;
+}
+
+/// The calls of a function of call_top.hpp, wherever they stand.
+std::vector<const llvm::CallInst*> notes(const llvm::Module& module, llvm::StringRef name) {
+  std::vector<const llvm::CallInst*> calls;
+  if (const llvm::Function* const function = module.getFunction(name))
+    for (const llvm::User* user : function->users())
+      if (const auto* call = llvm::dyn_cast<llvm::CallInst>(user)) calls.push_back(call);
+  return calls;
+}
+
+unsigned number(const llvm::CallInst& call, unsigned operand) {
+  return static_cast<unsigned>(llvm::cast<llvm::ConstantInt>(call.getArgOperand(operand))->getZExtValue());
+}
+
+}  // namespace
+
+std::vector<std::string> sizes_of_array_parameters(const std::string& preprocessed, const std::string& top) {
+  const std::string clean = without_line_markers(preprocessed);
+  const llvm::StringRef text = clean;
+  const std::string name = top.substr(top.rfind(':') + 1);
+  for (std::size_t at = text.find(name); at != llvm::StringRef::npos; at = text.find(name, at + 1)) {
+    if (at > 0 && is_of_name(text[at - 1])) continue;
+    const std::size_t open = text.find_first_not_of(" \t\n", at + name.size());
+    if (open == llvm::StringRef::npos || text[open] != '(') continue;
+    const std::size_t close = closing(text, open);
+    if (close == llvm::StringRef::npos) continue;
+    if (!text.drop_front(close + 1).ltrim().starts_with("{")) continue;  // a declaration or a call
+    std::vector<std::string> sizes;
+    for (const llvm::StringRef parameter : split_parameters(text.slice(open + 1, close)))
+      sizes.push_back(array_size(parameter));
+    return sizes;
+  }
+  return {};
+}
+
+std::map<unsigned, unsigned> stream_arrays(llvm::Module& module) {
+  std::map<unsigned, unsigned> arrays;
+  for (const llvm::CallInst* call : notes(module, "__epiline_array")) arrays[number(*call, 0)] = number(*call, 1);
+  return arrays;
+}
+
+unsigned returned_position(llvm::Module& module) {
+  const std::vector<const llvm::CallInst*> calls = notes(module, "__epiline_returned");
+  return calls.empty() ? 0 : number(*calls.front(), 0);
+}
+
+unsigned flat_index(const std::map<unsigned, unsigned>& arrays, unsigned position) {
+  unsigned index = position;
+  for (const auto& [at, count] : arrays)
+    if (at < position) index += count - 1;
+  return index;
+}
+
+}  // namespace epiline::frontend

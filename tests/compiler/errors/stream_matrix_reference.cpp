@@ -1,0 +1,6 @@
+#include "ap_int.h"
+#include "hls_stream.h"
+
+void stream_matrix_reference(hls::stream<int> (&in)[2][2], hls::stream<int>& out) {  // refused: 'in'.*one dimension
+  out.write(in[0][1].read() + in[1][0].read());
+}
