@@ -66,7 +66,7 @@ What `rtl_gen/schedule/delay_model.cpp` decides by, wires included, and the same
 improvements_head = """
 ## Before and after
 
-The compiler's work on place and route, measured: *before* is the compiler of commit 9fff40b, the last one before it; *after* that of the published runs. The same source, the same Yosys and nextpnr, the same options and seeds; MHz is the median. Where a text stands instead, what is known is older: sizes by Debian's Yosys 0.23, one placement.
+The compiler's work on place and route, measured: *before* is the compiler of commit 9fff40b, the last one before it; *after* that of commit 532f0b0. The same source, the same Yosys and nextpnr, the same options and seeds; MHz is the median. Where a text stands instead, what is known is older: sizes by Debian's Yosys 0.23, one placement.
 
 """
 
