@@ -5,9 +5,11 @@
 //   abs(x), fabs(x)          T; the most negative number stays what it is
 //   min(a, b), max(a, b)     T; of two types, a type that holds both. Also fmin, fmax
 //   sqrt(x)                  T, cut toward zero; a number below zero has 0
-//   floor, ceil, trunc,      T, of fixed point: toward minus or plus infinity, toward zero, nearest with halves away
-//   round, rint              from zero, nearest with halves to even; what T cannot hold is kept as it says (AP_WRAP
-//   ...) signbit(x)               bool, whether x is below zero copysign(x, y)           T, |x| with the sign of y
+//   floor, ceil, trunc,      T, of fixed point: toward minus or plus infinity, toward zero,
+//   round, rint              nearest with halves away from zero, nearest with halves to even;
+//                            T's way with what it cannot hold (AP_WRAP, ...) applies
+//   signbit(x)               bool, whether x is below zero
+//   copysign(x, y)           T, |x| with the sign of y
 //
 // Everything else of the vendors' header (sin, exp, pow, ...), and all floating point, is refused where it is used.
 
