@@ -86,8 +86,8 @@ struct plan {
   std::vector<copies> valid_copies;                                  // per stage; stage 0 has none
   int last_valid = 1;                                                // the last stage that needs its valid bit
   /// Bits that are 1 where a stage holds an iteration and a condition is true in it, by condition and stage: they are
-  /// the clock enables of the state and the memories that the condition updates. Made a stage earlier, wherever the condition is known
-  /// then: no gate stands between them and the enables.
+  /// the clock enables of the state and the memories that the condition updates. Made a stage earlier, wherever the
+  /// condition is known then: no gate stands between them and the enables.
   std::map<std::pair<dataflow::node_id, int>, copies> update_bits;
   /// Where much state is reset, the reset comes to it through two rows of flip-flops: the last one, and the one before.
   copies reset_copies{{0}}, early_reset_copies{{0}};
