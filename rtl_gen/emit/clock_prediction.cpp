@@ -226,8 +226,9 @@ class predictor {
     std::set<std::pair<node_id, int>> into_block_rams;
     for (node_id id = 0; id < g_.nodes.size(); ++id) {
       const node& n = g_.nodes[id];
-      const std::pair<node_id, int> place{n.kind == operation::memory_write ? n.operands[2] : 0, s_.stage[id]};
-      if (n.kind != operation::memory_write || !plan_.update_bits.contains(place)) continue;
+      if (n.kind != operation::memory_write) continue;
+      const std::pair<node_id, int> place{n.operands[2], s_.stage[id]};
+      if (!plan_.update_bits.contains(place)) continue;
       enabled[place] += schedule::memory_inputs(g_, model_, n.object);
       if (model_.storage(g_.memories[n.object]) == schedule::storage_kind::block) into_block_rams.insert(place);
     }

@@ -115,26 +115,18 @@ void write_memory_writes(module_text& m, int stage) {
     if (p.writes.empty() || m.s.stage[p.writes[0]] != stage) continue;
     const std::string& name = m.names.memories[i];
     const std::uint64_t words = m.g.memories[i].words;
-    m.values.read_by(p.writes[0]);
-    bool early = true;  // the enables are flip-flops that say whether the stage holds an iteration, too
-    const auto chosen = [&](node_id id) {
-      const node_id condition = m.g.nodes[id].operands[2];
-      m.values.read_by(id);
-      std::string bit = m.values.update_bit(condition, stage);
-      early = !bit.empty();
-      return early ? bit : m.values.operand(condition, stage);
-    };
-    const auto enable = [&](node_id id) {
-      const std::string bit = chosen(id);
-      if (early) return bit;
-      return m.is_always(m.g.nodes[id].operands[2]) ? m.values.valid(stage)
-                                                    : fmt::format("{} & {}", m.values.valid(stage), bit);
+    const auto enable = [&](node_id condition) {
+      // A flip-flop that says whether the stage holds an iteration, too, if there is one.
+      if (const std::string early = m.values.update_bit(condition, stage); !early.empty()) return early;
+      return m.is_always(condition) ? m.values.valid(stage)
+                                    : fmt::format("{} & {}", m.values.valid(stage), m.values.operand(condition, stage));
     };
     if (p.writes.size() == 1 || !p.exclusive_writes) {
       m.line("  always @(posedge clk) begin{}", m.comment(m.g.nodes[p.writes[0]].where));
       for (const node_id id : p.writes) {
         const node& n = m.g.nodes[id];
-        m.line("    if ({}) {}[{}] <= {};", enable(id), name, m.values.index(n.operands[0], stage, words),
+        m.values.read_by(id);
+        m.line("    if ({}) {}[{}] <= {};", enable(n.operands[2]), name, m.values.index(n.operands[0], stage, words),
                m.values.whole(n.operands[1], stage));
       }
       m.line("  end");
@@ -145,8 +137,10 @@ void write_memory_writes(module_text& m, int stage) {
     bool all_early = true;
     for (const node_id id : p.writes) {
       const node& n = m.g.nodes[id];
-      const std::string e = chosen(id);
-      all_early &= early;
+      m.values.read_by(id);
+      const std::string early = m.values.update_bit(n.operands[2], stage);
+      const std::string e = early.empty() ? m.values.operand(n.operands[2], stage) : early;
+      all_early &= !early.empty();
       any += (any.empty() ? "" : " | ") + e;
       if (id == p.writes.back()) {
         address += m.values.index(n.operands[0], stage, words);
