@@ -4,6 +4,7 @@
 
 #include <ap_axi_sdata.h>
 #include <ap_int.h>
+#include <detail/stream_arrays.h>
 #include <hls_stream.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -266,16 +267,6 @@ class passed<hls::stream<T, Depth> (&)[Count], Index> {
  private:
   hls::stream<T, Depth> streams_[Count];
   std::vector<std::unique_ptr<slot>> made_;
-};
-
-/// A function's array of streams is a pointer: `Count` of them.
-template <class P, int Count>
-struct as_written {
-  using type = P;
-};
-template <class T, int Depth, int Count>
-struct as_written<hls::stream<T, Depth>*, Count> {
-  using type = hls::stream<T, Depth> (&)[Count];
 };
 
 enum class role { input, output, scalar, result };
@@ -556,26 +547,18 @@ template <auto Top, class Result, class... P, int... Position>
   }
 }
 
-template <int... Counts>
-struct stream_counts {
-  static constexpr int at(int position) {
-    const int counts[] = {Counts..., 0};
-    return position < static_cast<int>(sizeof...(Counts)) ? counts[position] : 0;
-  }
-};
-
 template <auto Top, class Counts, class Result, class... P, int... Position>
 [[noreturn]] void drive_written(std::integer_sequence<int, Position...> positions, std::vector<parameter> parameters,
                                 int argc, char** argv) {
-  drive<Top, Result, typename as_written<P, Counts::at(Position)>::type...>(positions, std::move(parameters), argc,
-                                                                            argv);
+  drive<Top, Result, typename hls::detail::as_written<P, Counts::at(Position)>::type...>(
+      positions, std::move(parameters), argc, argv);
 }
 
 /// `Counts`: of the streams in each parameter that is an array of them, or 0.
 template <auto Top, int... Counts, class Result, class... P>
 [[noreturn]] void drive(Result (*)(P...), std::vector<parameter> parameters, int argc, char** argv) {
-  drive_written<Top, stream_counts<Counts...>, Result, P...>(std::make_integer_sequence<int, sizeof...(P)>(),
-                                                             std::move(parameters), argc, argv);
+  drive_written<Top, hls::detail::stream_counts<Counts...>, Result, P...>(
+      std::make_integer_sequence<int, sizeof...(P)>(), std::move(parameters), argc, argv);
 }
 
 }  // namespace epiline::check

@@ -7,6 +7,7 @@
 // streams of one token a call. An array of streams counts as that many parameters, and so does what is returned.
 
 #include <ap_int.h>
+#include <detail/stream_arrays.h>
 #include <hls_stream.h>
 
 extern "C" {
@@ -139,17 +140,6 @@ constexpr bool is_unsupported(const unsupported_parameter<Index, Reason>*) {
   return true;
 }
 
-// An array of streams that a function takes has become a pointer by now; how many there are the frontend has read.
-template <class P, int Count>
-struct as_written {
-  using type = P;
-};
-template <class T, int Depth, int Count>
-struct as_written<hls::stream<T, Depth>*, Count> {
-  using type =
-      std::conditional_t<Count == 0, hls::stream<T, Depth>*, hls::stream<T, Depth> (&)[Count == 0 ? 1 : Count]>;
-};
-
 template <class P>
 inline constexpr int streams_in_array = 0;
 template <class T, int Depth, unsigned long Count>
@@ -190,17 +180,9 @@ void call_once(Result (*)(P...), std::integer_sequence<int, Position...>) {
   pass_parameters<Top, Result, index_of<P...>(sizeof...(P))>(parameter<P, index_of<P...>(Position)>{}...);
 }
 
-template <int... Counts>
-struct stream_counts {
-  static constexpr int at(int position) {
-    const int counts[] = {Counts..., 0};
-    return position < static_cast<int>(sizeof...(Counts)) ? counts[position] : 0;
-  }
-};
-
 template <auto Top, class Counts, class Result, class... P, int... Position>
 void call_written(Result (*)(P...), std::integer_sequence<int, Position...> positions) {
-  Result (*top)(typename as_written<P, Counts::at(Position)>::type...) = nullptr;
+  Result (*top)(typename hls::detail::as_written<P, Counts::at(Position)>::type...) = nullptr;
   for (;;) call_once<Top>(top, positions);
 }
 
@@ -208,7 +190,7 @@ void call_written(Result (*)(P...), std::integer_sequence<int, Position...> posi
 template <auto Top, int... Counts, class Result, class... P>
 void call_for_ever(Result (*top)(P...)) {
   static_assert(!std::is_pointer_v<Result> && !std::is_reference_v<Result>, "the top returns a pointer");
-  call_written<Top, stream_counts<Counts...>>(top, std::make_integer_sequence<int, sizeof...(P)>());
+  call_written<Top, hls::detail::stream_counts<Counts...>>(top, std::make_integer_sequence<int, sizeof...(P)>());
 }
 
 }  // namespace epiline::detail
