@@ -4,8 +4,8 @@
 #include <llvm/BinaryFormat/Dwarf.h>
 #include <llvm/IR/DebugInfoMetadata.h>
 
-#include "frontend/processes.hpp"
 #include "frontend/stream_arrays.hpp"
+#include "frontend/top_function.hpp"
 
 namespace epiline::frontend {
 

@@ -9,21 +9,18 @@
 
 #include <string>
 
+#include "frontend/calls.hpp"
 #include "frontend/source.hpp"
 
 namespace epiline::frontend {
 
 namespace {
 
-bool is_named(const llvm::CallBase& call, llvm::StringRef prefix) {
-  return call.getCalledFunction() != nullptr && call.getCalledFunction()->getName().starts_with(prefix);
-}
-
 /// Whether a call leaves what a pointer of it points at as it is.
 bool only_marks(const llvm::CallBase& call) {
   if (const auto* intrinsic = llvm::dyn_cast<llvm::IntrinsicInst>(&call))
     return intrinsic->isLifetimeStartOrEnd() || intrinsic->getIntrinsicID() == llvm::Intrinsic::invariant_start;
-  return is_named(call, "__epiline_pragma_");
+  return calls_named(call, "__epiline_pragma_");
 }
 
 /// Follows a pointer into everything that is done with it.
@@ -63,8 +60,8 @@ class pointer_walk {
       if (copy->getRawDest() == pointer) note_write(call);
       return;
     }
-    if (is_named(call, "__epiline_stream_write")) return;
-    if (is_named(call, "__epiline_stream_") && call.getArgOperand(0) == pointer) return;  // a stream in an object
+    if (calls_named(call, "__epiline_stream_write")) return;
+    if (calls_named(call, "__epiline_stream_") && call.getArgOperand(0) == pointer) return;  // a stream in an object
     const llvm::Function* callee = call.getCalledFunction();
     if (callee == nullptr || callee->isDeclaration()) return note_write(call);
     for (unsigned i = 0; i < call.arg_size() && i < callee->arg_size(); ++i)
@@ -78,11 +75,6 @@ class pointer_walk {
   const std::set<const llvm::Function*> inside_;
   std::set<const llvm::Value*> seen_;
 };
-
-std::string process_name_of(const llvm::CallInst& call) {
-  const llvm::DISubprogram* program = call.getCalledFunction()->getSubprogram();
-  return program != nullptr ? program->getName().str() : readable_name(*call.getCalledFunction());
-}
 
 /// A variable's name in the source.
 std::string variable_name(const llvm::Value& object) {
@@ -99,25 +91,10 @@ std::string variable_name(const llvm::Value& object) {
 
 [[noreturn]] void refuse_shared(const source_place& place, const llvm::Value& object, const llvm::CallInst& writer,
                                 const std::string& other) {
-  const std::string who = process_name_of(writer);
+  const std::string who = short_name(*writer.getCalledFunction());
   refuse(place, fmt::format("DATAFLOW: '{}' is written by the process '{}' and used by {}: processes run side by side "
                             "and share nothing but streams: send it through an hls::stream",
                             variable_name(object), who, other));
-}
-
-/// What a process runs: the function called and everything it calls.
-std::set<const llvm::Function*> functions_of(const llvm::CallInst& call) {
-  std::set<const llvm::Function*> all{call.getCalledFunction()};
-  std::vector<const llvm::Function*> pending{call.getCalledFunction()};
-  while (!pending.empty()) {
-    const llvm::Function* function = pending.back();
-    pending.pop_back();
-    for (const llvm::Instruction& instruction : llvm::instructions(*function))
-      if (const auto* inner = llvm::dyn_cast<llvm::CallBase>(&instruction);
-          inner != nullptr && inner->getCalledFunction() != nullptr && all.insert(inner->getCalledFunction()).second)
-        pending.push_back(inner->getCalledFunction());
-  }
-  return all;
 }
 
 /// A variable of the top that a process writes may go nowhere else but into a result.
@@ -129,14 +106,14 @@ void check_local(const llvm::Value& variable, const llvm::Value& pointer, const 
       check_local(variable, *instruction, writer);
     } else if (const auto* call = llvm::dyn_cast<llvm::CallBase>(instruction)) {
       const auto* copy = llvm::dyn_cast<llvm::MemIntrinsic>(call);
-      if (only_marks(*call) || is_named(*call, "__epiline_result") || is_named(*call, "__epiline_argument") ||
-          is_named(*call, "__epiline_unwritten") || (copy != nullptr && copy->getRawDest() == &pointer))
+      if (only_marks(*call) || calls_named(*call, "__epiline_result") || calls_named(*call, "__epiline_argument") ||
+          calls_named(*call, "__epiline_unwritten") || (copy != nullptr && copy->getRawDest() == &pointer))
         continue;
       const auto* other = llvm::dyn_cast<llvm::CallInst>(call);
       const bool process =
           other != nullptr && other->getCalledFunction() != nullptr && !other->getCalledFunction()->isDeclaration();
       refuse_shared(place_of(*call), variable, writer,
-                    process ? fmt::format("the process '{}'", process_name_of(*other)) : "the top");
+                    process ? fmt::format("the process '{}'", short_name(*other->getCalledFunction())) : "the top");
     } else if (!llvm::isa<llvm::StoreInst>(instruction) && place_of(instruction->getDebugLoc()).line != 0) {
       refuse_shared(place_of(*instruction), variable, writer, "the top");
     }
@@ -174,7 +151,7 @@ std::map<const llvm::Value*, std::size_t> check_objects(const llvm::Function& to
     std::vector<const llvm::Instruction*> uses;
     std::size_t writer = calls.size();
     for (std::size_t i = 0; i < calls.size(); ++i) {
-      std::set<const llvm::Function*> inside = functions_of(*calls[i]);
+      std::set<const llvm::Function*> inside = reached_from(*calls[i]->getCalledFunction());
       pointer_walk walk(inside);
       walk.follow(&variable);
       uses.push_back(walk.first_use);
@@ -193,7 +170,7 @@ std::map<const llvm::Value*, std::size_t> check_objects(const llvm::Function& to
     for (std::size_t i = 0; i < calls.size(); ++i)
       if (i != writer && uses[i] != nullptr)
         refuse_shared(place_of(*uses[i]), variable, *calls[writer],
-                      fmt::format("the process '{}'", process_name_of(*calls[i])));
+                      fmt::format("the process '{}'", short_name(*calls[i]->getCalledFunction())));
     for (const llvm::Instruction& instruction : llvm::instructions(top))
       if (&instruction != calls[writer])
         for (const llvm::Use& operand : instruction.operands())

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 
+#include "frontend/calls.hpp"
 #include "frontend/element_loop.hpp"
 #include "frontend/payload.hpp"
 #include "frontend/process_objects.hpp"
@@ -31,10 +32,6 @@ llvm::Type* token_type(llvm::Type* type) {
   if (bits_of(type) <= widest_token) return type;
   auto* array = llvm::dyn_cast<llvm::ArrayType>(type);
   return array == nullptr ? nullptr : token_type(array->getElementType());
-}
-
-bool is_named(const llvm::CallBase& call, llvm::StringRef prefix) {
-  return call.getCalledFunction() != nullptr && call.getCalledFunction()->getName().starts_with(prefix);
 }
 
 /// Follows what is computed from a variable of the top to the processes.
@@ -73,7 +70,7 @@ class use_search {
     const auto found = std::find(calls_.begin(), calls_.end(), &call);
     if (found != calls_.end())
       users.insert(static_cast<std::size_t>(found - calls_.begin()));
-    else if (is_named(call, "__epiline_result"))
+    else if (calls_named(call, "__epiline_result"))
       users.insert(0);  // the first process gives what only the top itself computes
     else if (!call.getType()->isVoidTy())
       pending_.push_back(&call);
@@ -102,8 +99,8 @@ bool is_parameter(const llvm::Value& pointer) {
   return std::any_of(pointer.user_begin(), pointer.user_end(), [](const llvm::User* user) {
     if (llvm::isa<llvm::GetElementPtrInst>(user)) return is_parameter(*user);
     const auto* call = llvm::dyn_cast<llvm::CallInst>(user);
-    return call != nullptr && (is_named(*call, "__epiline_result") || is_named(*call, "__epiline_argument") ||
-                               is_named(*call, "__epiline_unwritten"));
+    return call != nullptr && (calls_named(*call, "__epiline_result") || calls_named(*call, "__epiline_argument") ||
+                               calls_named(*call, "__epiline_unwritten"));
   });
 }
 

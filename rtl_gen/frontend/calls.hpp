@@ -1,0 +1,30 @@
+#pragma once
+// Which functions an instruction or a function calls.
+
+#include <llvm/IR/Function.h>
+#include <llvm/IR/Instructions.h>
+#include <llvm/IR/Module.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace epiline::frontend {
+
+/// The function that an instruction calls; null: it is no call, or one through a pointer.
+[[nodiscard]] llvm::Function* called_by(const llvm::Instruction& instruction);
+
+/// Whether an instruction calls a function whose name begins so.
+[[nodiscard]] bool calls_named(const llvm::Instruction& instruction, llvm::StringRef prefix);
+
+/// The calls of the function of that name: in the whole module, or in one function of it.
+[[nodiscard]] std::vector<llvm::CallInst*> calls_of(llvm::Module& module, llvm::StringRef name,
+                                                    const llvm::Function* in = nullptr);
+
+/// Everything that runs when `root` does, itself included.
+[[nodiscard]] std::set<const llvm::Function*> reached_from(const llvm::Function& root);
+
+/// As the source calls the function, without scopes and parameters.
+[[nodiscard]] std::string short_name(const llvm::Function& function);
+
+}  // namespace epiline::frontend
