@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 #include <llvm/Demangle/Demangle.h>
+#include <llvm/IR/DebugInfo.h>
 #include <llvm/IR/DebugInfoMetadata.h>
+#include <llvm/IR/Instructions.h>
 
 #include <filesystem>
 #include <map>
@@ -107,6 +109,21 @@ std::string readable_name(const llvm::Function& function) {
   // What the demangler cannot read: a lambda's, above all.
   const llvm::DISubprogram* program = function.getSubprogram();
   return program == nullptr || program->getName().starts_with("operator()") ? "a lambda" : program->getName().str();
+}
+
+std::string readable_name(const llvm::Instruction& value) {
+  llvm::SmallVector<llvm::DbgVariableIntrinsic*> intrinsics;
+  llvm::SmallVector<llvm::DbgVariableRecord*> records;
+  llvm::findDbgUsers(intrinsics, const_cast<llvm::Instruction*>(&value), &records);
+  if (llvm::isa<llvm::PHINode>(value) && value.hasName()) {
+    llvm::StringRef name = value.getName().split('.').first;
+    if (!name.empty() && name != "cond") return name.rtrim('_').str();
+  }
+  for (const llvm::DbgVariableRecord* record : records) {
+    const llvm::StringRef name = record->getVariable()->getName().rtrim('_');
+    if (!name.empty() && name != "this") return name.str();
+  }
+  return {};
 }
 
 }  // namespace epiline::frontend

@@ -49,4 +49,7 @@ struct source_place {
 /// The function's or variable's name as the user wrote it.
 [[nodiscard]] std::string readable_name(const llvm::Function& function);
 
+/// The source variable that a value belongs to, by debug information or by the name the splitting gave it.
+[[nodiscard]] std::string readable_name(const llvm::Instruction& value);
+
 }  // namespace epiline::frontend

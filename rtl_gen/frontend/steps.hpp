@@ -4,6 +4,7 @@
 // an iteration of a loop nest is one step; a step accesses each port at most once and writes each memory at most once.
 
 #include <llvm/IR/Function.h>
+#include <llvm/IR/Instructions.h>
 
 #include <map>
 #include <vector>
@@ -20,6 +21,12 @@ struct step_structure {
   int patient_cut = -1;
 
   [[nodiscard]] bool is_cut(const llvm::BasicBlock* block) const { return cut_number.count(block) != 0; }
+
+  /// Whether a value is chosen by the way that the step before took.
+  [[nodiscard]] bool is_cut_phi(const llvm::Value* value) const {
+    const auto* phi = llvm::dyn_cast<llvm::PHINode>(value);
+    return phi != nullptr && is_cut(phi->getParent());
+  }
 };
 
 /// Splits blocks of the function where a cut falls inside of one.
