@@ -301,7 +301,11 @@ storage_kind delay_model::storage(const dataflow::memory& m) const {
 }
 
 double delay_model::distributed_area(std::uint64_t words, std::uint64_t width) const {
-  return 1.5 * static_cast<double>(width) * static_cast<double>((words + 15) / 16);
+  // A RAM of 16 words of 4 bits takes the place of 6 LUTs (ECP5: four hold the bits, two the write port). From two of
+  // them a bit a LUT chooses.
+  const std::uint64_t parts = (words + 15) / 16;
+  const double choice = parts < 2 ? 0 : static_cast<double>((parts + 1) / 2);
+  return static_cast<double>(width) * (1.5 * static_cast<double>(parts) + choice);
 }
 
 storage_kind delay_model::storage(const dataflow::table& t) const {

@@ -157,6 +157,9 @@ TEST(delay_model, puts_wide_memories_of_few_words_into_block_ram) {
   m.width = 8;
   EXPECT_EQ(ecp5.storage(m), schedule::storage_kind::distributed);
   EXPECT_EQ(delay_model("hx8k").storage(m), schedule::storage_kind::block);  // has no LUT RAM
+  m.width = 128;  // 384 LUTs of RAM and 128 that choose between its halves, or 4 block RAMs
+  EXPECT_EQ(ecp5.distributed_area(m.words, m.width), 512.0);
+  EXPECT_EQ(ecp5.storage(m), schedule::storage_kind::block);
   m.width = 1280;
   EXPECT_EQ(ecp5.storage(m), schedule::storage_kind::block);
   EXPECT_GT(ecp5.distributed_area(m.words, m.width), 100.0 * ecp5.blocks(m.words, m.width));
