@@ -121,5 +121,55 @@ class Faults(CheckTest):
         self.assertIn("--fault: 'constant 77' is not in level graph", run.stderr)
 
 
+PROCESSES = """#include "ap_int.h"
+#include "hls_stream.h"
+
+static void add(hls::stream<ap_uint<8> >& in, hls::stream<ap_uint<8> >& sums) {
+#pragma HLS PIPELINE
+  sums.write(in.read() + 37);
+}
+
+static void halve(hls::stream<ap_uint<8> >& sums, hls::stream<ap_uint<8> >& out) {
+#pragma HLS PIPELINE
+  out.write(sums.read() >> 1);
+}
+
+void processes(hls::stream<ap_uint<8> >& in, hls::stream<ap_uint<8> >& out) {
+#pragma HLS DATAFLOW
+  hls::stream<ap_uint<8> > sums("sums");
+  add(in, sums);
+  halve(sums, out);
+}
+"""
+OUT_LINE = 11
+
+
+class FaultsInAProcess(CheckTest):
+    """The process with the fault writes to a FIFO: what is seen, and named, is the token of the top's output."""
+
+    def differs(self, level, change, named=None):
+        (self.folder / "processes.cpp").write_text(PROCESSES, encoding="utf-8")
+        # 37 and 38 more, halved: the same for the first token.
+        (self.folder / "x.tokens").write_text("port in input stream tdata:8\ntoken 01\ntoken 02\n", encoding="utf-8")
+        run = self.check("processes.cpp", "processes", "--stimulus", "x.tokens", "--levels", named or level, "--fault",
+                         f"{level}:{change}")
+        self.assertEqual(run.returncode, 1, run.stdout + run.stderr)
+        message = run.stderr.strip().splitlines()[-1]
+        self.assertTrue(message.startswith(f"processes.cpp:{OUT_LINE}: error: level {named or level} differs: "), message)
+        self.assertIn("output 'out': token 1 of 2 is tdata=14, native tdata=13", message)
+
+    def test_lowered_ir(self):
+        self.differs("ir-lowered", ", 37:, 38")
+
+    def test_built_graph(self):
+        self.differs("graph", "constant 8 0x25:constant 8 0x26")
+
+    def test_a_pass_over_one_process(self):
+        self.differs("passes/balance_trees", "constant 8 0x25:constant 8 0x26", named="passes")
+
+    def test_rtl(self):
+        self.differs("rtl-icarus", "8'd37:8'd38")
+
+
 if __name__ == "__main__":
     check_fixture.main()
