@@ -137,7 +137,7 @@ constexpr const char* tail = R"(
     still <= moves ? 0 : still + 1;
     quiet <= complete ? quiet + 1 : 0;
     if (quiet == {quiet} || still == {patience}) begin
-      $fdisplay(file, "clocks %0d", clocks - still);
+{peaks}      $fdisplay(file, "clocks %0d", clocks - still);
       $fclose(file);
       $finish;
     end
@@ -159,7 +159,7 @@ const char* pattern_name(unsigned pattern) {
   return names[pattern];
 }
 
-std::string bench_text(const dataflow::network& n, const reference& wanted, std::uint64_t patience) {
+std::string bench_text(const dataflow::network& n, const reference& wanted, std::uint64_t patience, bool sees_fifos) {
   using namespace fmt::literals;
   const std::vector<emit::rtl_port> ports = emit::interface_of(emit::outside_of(n), false);
   std::string text = head;
@@ -182,9 +182,13 @@ std::string bench_text(const dataflow::network& n, const reference& wanted, std:
     moves += fmt::format("{}moves_{}", moves.empty() ? "" : " || ", i);
     if (!port.input) complete += fmt::format("{}count_{} >= {}", complete.empty() ? "" : " && ", i, wanted.at_least[i]);
   }
+  std::string peaks;
+  for (std::size_t i = 0; sees_fifos && i < n.fifos.size(); ++i)
+    peaks +=
+        fmt::format("      $fdisplay(file, \"fifo {} %0d\", dut.{}.peak);\n", i, emit::fifo_instance_name(n.fifos[i]));
   text += fmt::format("\n  {} dut (\n    {}\n  );\n", n.name, connections);
   text += fmt::format(fmt::runtime(tail), "start"_a = start, "moves"_a = moves, "complete"_a = complete,
-                      "quiet"_a = wanted.may_give_more ? 1 : quiet_clocks, "patience"_a = patience);
+                      "quiet"_a = wanted.may_give_more ? 1 : quiet_clocks, "patience"_a = patience, "peaks"_a = peaks);
   return text;
 }
 
@@ -210,6 +214,13 @@ bench_answer read_bench_answer(const std::filesystem::path& file, const dataflow
     if (word == "rule") {
       result.problem = line.substr(5);
       return result;
+    }
+    if (word == "fifo") {
+      std::size_t number = 0;
+      std::uint64_t peak = 0;
+      words >> number >> peak;
+      if (!words || number != result.peak_fills.size()) break;
+      result.peak_fills.push_back(peak);
     }
     if (word == "clocks") is_complete = static_cast<bool>(words >> result.clocks);
     if (word != "out") continue;

@@ -299,8 +299,14 @@ struct checker::state {
                                                .verilog = std::move(files),
                                                .with = with,
                                                .seed = wanted.seed,
-                                               .patience = least_patience + std::min<std::uint64_t>(clocks, 1'000'000)},
+                                               .patience = least_patience + std::min<std::uint64_t>(clocks, 1'000'000),
+                                               .sees_fifos = level != "netlist"},
                                               network, at_clocks);
+    // Of a random schedule other words wait for each other.
+    if (level.starts_with("rtl-")) {
+      peak_fills.resize(found.peak_fills.size());
+      for (std::size_t i = 0; i < peak_fills.size(); ++i) peak_fills[i] = std::max(peak_fills[i], found.peak_fills[i]);
+    }
     if (found.problem.empty())
       table.equal(level, fmt::format("{} clocks, and with random pauses", found.clocks));
     else
@@ -356,6 +362,7 @@ struct checker::state {
   std::size_t passes = 0;
   bool pass_failed = false;
   std::string verilog;
+  std::vector<std::uint64_t> peak_fills;  // of the Verilog's FIFOs
 };
 
 checker::checker(options wanted, frontend::source_options source, std::ostream& out)
@@ -382,6 +389,8 @@ checker::checker(options wanted, frontend::source_options source, std::ostream& 
 checker::~checker() = default;
 
 bool checker::wants(std::string_view level) const { return state_->wants(level); }
+
+const std::vector<std::uint64_t>& checker::peak_fills() const { return state_->peak_fills; }
 
 void checker::see_source(llvm::Module& module) {
   state_->top.members = frontend::parameter_members(module, state_->top.source.top);

@@ -66,6 +66,9 @@ class checker {
   /// the first that is not, and the first value.
   [[nodiscard]] std::string finish();
 
+  /// By FIFO of the network, the most tokens it held in the simulations of the Verilog; empty: none was simulated.
+  [[nodiscard]] const std::vector<std::uint64_t>& peak_fills() const;
+
   /// Whether a level is to be run: work that is for it only can be saved.
   [[nodiscard]] bool wants(std::string_view level) const;
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "check/bench.hpp"
@@ -82,7 +83,7 @@ simulation_verdict simulate(const simulation_request& request, const dataflow::n
   simulation_verdict verdict;
   try {
     const std::string bench = request.name + "_bench.v";
-    write_file(request.folder / bench, bench_text(n, wanted, request.patience));
+    write_file(request.folder / bench, bench_text(n, wanted, request.patience, request.sees_fifos));
     write_inputs(request.folder, n, wanted);
     std::vector<std::string> run = build(request, bench);
     for (unsigned pattern = 0; pattern < bench_patterns; ++pattern) {
@@ -99,6 +100,9 @@ simulation_verdict simulate(const simulation_request& request, const dataflow::n
         throw std::runtime_error("the simulation failed: " + what_went_wrong(request.folder / log));
       const bench_answer answer = read_bench_answer(request.folder / out, n);
       if (pattern == 0) verdict.clocks = answer.clocks;
+      verdict.peak_fills.resize(answer.peak_fills.size());
+      for (std::size_t i = 0; i < answer.peak_fills.size(); ++i)
+        verdict.peak_fills[i] = std::max(verdict.peak_fills[i], answer.peak_fills[i]);
       verdict.problem = answer.problem;
       if (verdict.problem.empty()) {
         verdict.where = compare(n, wanted, answer.outputs);

@@ -21,12 +21,15 @@ struct simulation_request {
   simulator with = simulator::icarus;
   std::uint64_t seed = 1;
   std::uint64_t patience = 4000;  // clocks without a token that moves
+  bool sees_fifos = false;        // the Verilog is as it was generated
 };
 
 struct simulation_verdict {
   std::string problem;       // empty: equal
   difference where;          // the token that differs, if that is the problem
   std::uint64_t clocks = 0;  // without pauses
+  /// By FIFO, the most tokens it held under any pattern of pauses; empty: not seen.
+  std::vector<std::uint64_t> peak_fills;
 };
 
 /// Whether the simulator's programs are installed: empty, or what is missing and its Debian package.

@@ -47,6 +47,7 @@ json make_network_report(const dataflow::network& n, const schedule::delay_model
                        {"instance", fifo_instance_name(f)},
                        {"width", f.width},
                        {"depth", p.depth},
+                       {"peak_fill", nullptr},
                        {"writer", n.processes[find_end(n, f.name, false).process].name},
                        {"reader", n.processes[find_end(n, f.name, true).process].name},
                        {"storage", schedule::name_of(p.storage)},
@@ -84,6 +85,10 @@ json make_network_report(const dataflow::network& n, const schedule::delay_model
   return report;
 }
 
+void add_peak_fills(json& report, const std::vector<std::uint64_t>& peak_fills) {
+  for (std::size_t i = 0; i < peak_fills.size(); ++i) report["streams"].at(i)["peak_fill"] = peak_fills[i];
+}
+
 std::string network_report_text(const json& report) {
   if (!report.contains("processes")) return report_text(report);
   std::string text;
@@ -102,10 +107,11 @@ std::string network_report_text(const json& report) {
        number(report["registers"]["total_bits"]), number(report["estimate"]["block_rams"]));
   line("\nStreams between processes");
   for (const json& stream : report["streams"]) {
-    line("  {}: {} x {} bits, from {} to {}, {}, {:.0f} LUT4, {} flip-flops, {} block RAMs  {}", name(stream["name"]),
-         number(stream["depth"]), number(stream["width"]), name(stream["writer"]), name(stream["reader"]),
-         name(stream["storage"]), stream["lut4"].get<double>(), number(stream["flip_flops"]),
-         number(stream["block_rams"]), location_text(stream["where"]));
+    line("  {}: {} x {} bits{}, from {} to {}, {}, {:.0f} LUT4, {} flip-flops, {} block RAMs  {}", name(stream["name"]),
+         number(stream["depth"]), number(stream["width"]),
+         stream["peak_fill"].is_null() ? "" : fmt::format(" (at most {} held)", number(stream["peak_fill"])),
+         name(stream["writer"]), name(stream["reader"]), name(stream["storage"]), stream["lut4"].get<double>(),
+         number(stream["flip_flops"]), number(stream["block_rams"]), location_text(stream["where"]));
   }
   for (const json& process : report["processes"]) text += "\n---- process " + report_text(process["report"]);
   return text;

@@ -1,6 +1,7 @@
 #pragma once
 // The report of a network: the processes' own reports, the FIFOs between them, and the sums.
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -17,6 +18,10 @@ namespace epiline::emit {
                                                  const std::vector<schedule::result>& schedules,
                                                  const std::vector<nlohmann::json>& passes, bool axi_lite,
                                                  const std::optional<device_delays>& delays = {});
+
+/// Enters what a simulation saw: by FIFO of the network, the most tokens it held (`peak_fills` is empty where the
+/// report has no streams).
+void add_peak_fills(nlohmann::json& report, const std::vector<std::uint64_t>& peak_fills);
 
 /// The same for people.
 [[nodiscard]] std::string network_report_text(const nlohmann::json& report);

@@ -20,7 +20,7 @@ struct report_options {
   std::optional<device_delays> delays = {};         // for the prediction of the clock; none: it is null
 };
 
-/// Schema "epiline-report/3", docs/report.schema.json. Key "interface" suffices to drive the module.
+/// Schema "epiline-report/4", docs/report.schema.json. Key "interface" suffices to drive the module.
 [[nodiscard]] nlohmann::json make_report(const dataflow::graph& g, const schedule::delay_model& model,
                                          const schedule::result& s, const report_options& options = {});
 

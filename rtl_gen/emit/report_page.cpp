@@ -341,13 +341,17 @@ std::string processes_page(const json& report, const std::map<std::string, std::
   put("<div><b>{:.0f}</b>LUT4 (estimated)</div><div><b>{}</b>flip-flops</div><div><b>{}</b>block RAMs</div></div>\n",
       report["estimate"]["lut4"].get<double>(), whole(report["registers"]["total_bits"]),
       whole(report["estimate"]["block_rams"]));
-  put("<h2>Streams between processes</h2>\n<div class=\"wide\"><table>\n<tr><th>stream</th><th>from</th><th>to</th>"
-      "<th class=\"n\">depth</th><th class=\"n\">bits</th><th>kept in</th><th class=\"n\">LUT4</th>"
+  put("<h2>Streams between processes</h2>\n<p class=\"soft\">Peak fill: the most tokens that the FIFO held while the "
+      "Verilog was simulated by --check, with and without pauses.</p>\n<div "
+      "class=\"wide\"><table>\n<tr><th>stream</th><th>from</th><th>to</th>"
+      "<th class=\"n\">depth</th><th class=\"n\">peak fill</th><th class=\"n\">bits</th><th>kept in</th><th "
+      "class=\"n\">LUT4</th>"
       "<th class=\"n\">flip-flops</th><th class=\"n\">block RAMs</th><th>source</th></tr>\n");
   for (const json& stream : report["streams"])
-    put("<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td>{}</td>"
-        "<td class=\"n\">{:.0f}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td>{}</td></tr>\n",
+    put("<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
+        "<td>{}</td><td class=\"n\">{:.0f}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td>{}</td></tr>\n",
         text_of(stream["name"]), text_of(stream["writer"]), text_of(stream["reader"]), whole(stream["depth"]),
+        stream["peak_fill"].is_null() ? "not simulated" : std::to_string(whole(stream["peak_fill"])),
         whole(stream["width"]), text_of(stream["storage"]), stream["lut4"].get<double>(), whole(stream["flip_flops"]),
         whole(stream["block_rams"]), place_text(stream["where"]));
   put("</table></div>\n<h2>Processes</h2>\n");

@@ -4,6 +4,7 @@
 levels_test.py EPILINE_HLS [unittest options]
 """
 
+import json
 import os
 import unittest
 
@@ -31,8 +32,18 @@ class AllLevels(CheckTest):
     def test_scalars_and_a_memory(self):
         self.check_all("zoom", "--target", "generic", "--tokens", "60")
 
-    def test_processes_with_scalars(self):
+    def test_processes_with_scalars_and_how_full_their_fifos_were(self):
         self.check_all("dataflow_gain", "--target", "generic", "--tokens", "60")
+        out = self.folder / "out"
+        streams = json.loads((out / "report.json").read_text(encoding="utf-8"))["streams"]
+        self.assertTrue(streams)
+        text = (out / "report.txt").read_text(encoding="utf-8")
+        for stream in streams:
+            # Under pauses something waits in every FIFO, and none holds more than it has places for.
+            self.assertGreaterEqual(stream["peak_fill"], 1, stream)
+            self.assertLessEqual(stream["peak_fill"], stream["depth"], stream)
+            self.assertIn(f"  {stream['name']}: {stream['depth']} x {stream['width']} bits (at most "
+                          f"{stream['peak_fill']} held), from", text)
 
     def test_reads_that_depend_on_state(self):
         # Its Verilog once had two operators in front of one another, which Verilator takes and Icarus does not.

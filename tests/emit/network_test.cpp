@@ -8,6 +8,7 @@
 #include "dataflow/small_networks.hpp"
 #include "emit/network_report.hpp"
 #include "emit/network_verilog.hpp"
+#include "emit/report_page.hpp"
 #include "rtl_simulation.hpp"
 
 namespace epiline::testing {
@@ -108,7 +109,21 @@ TEST(network_report, lists_the_fifos_and_adds_up) {
   EXPECT_EQ(report["interface"]["module"], "sort_and_merge");
   const std::string text = emit::network_report_text(report);
   EXPECT_NE(text.find("odd: 40 x 8 bits, from sorter to merger"), std::string::npos) << text;
+  EXPECT_EQ(odd["peak_fill"], nullptr);
   EXPECT_NE(text.find("process sorter: "), std::string::npos) << text;
+}
+
+TEST(network_report, shows_how_full_a_simulation_saw_the_fifos) {
+  json report = emitted(sort_and_merge(40)).report;
+  EXPECT_NE(emit::report_page(report, {}).find("not simulated"), std::string::npos);
+  emit::add_peak_fills(report, {7, 0});
+  EXPECT_EQ(report["streams"][0]["peak_fill"], 7);
+  EXPECT_EQ(report["streams"][1]["peak_fill"], 0);
+  const std::string text = emit::network_report_text(report);
+  EXPECT_NE(text.find("odd: 40 x 8 bits (at most 7 held), from sorter to merger"), std::string::npos) << text;
+  const std::string page = emit::report_page(report, {});
+  EXPECT_EQ(page.find("not simulated"), std::string::npos);
+  EXPECT_NE(page.find("<td class=\"n\">40</td><td class=\"n\">7</td>"), std::string::npos) << page;
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ json report_of(const graph& g, double period = 6) {
 
 TEST(report, has_the_schema_and_every_part) {
   const json report = report_of(make_calls());
-  EXPECT_EQ(report["schema"], "epiline-report/3");
-  EXPECT_EQ(report["schema_version"], 3);
+  EXPECT_EQ(report["schema"], "epiline-report/4");
+  EXPECT_EQ(report["schema_version"], 4);
   for (const char* key : {"top",       "target",    "clock",          "initiation_interval",
                           "depth",     "interface", "latency_clocks", "stages",
                           "registers", "memories",  "tables",         "delay_lines",

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace epiline {
+namespace epiline::driver {
 
 /// From now on such errors end the program with exit code 70. The folder is made beside other temporary files, and only
 /// when it is needed.
@@ -19,4 +19,4 @@ void keep_for_crash_report(std::string source);
 /// For the tests: an error of the kind "exception", "fatal", "signal" or "stack".
 void crash_on_purpose(const std::string& kind);
 
-}  // namespace epiline
+}  // namespace epiline::driver

@@ -1,4 +1,4 @@
-#include "crash_report.hpp"
+#include "driver/crash_report.hpp"
 
 #include <fcntl.h>
 #include <llvm/Support/ErrorHandling.h>
@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace epiline {
+namespace epiline::driver {
 
 namespace {
 
@@ -123,4 +123,4 @@ void crash_on_purpose(const std::string& kind) {
   if (kind == "stack") (void)use_up_the_stack(1u << 30);
 }
 
-}  // namespace epiline
+}  // namespace epiline::driver
