@@ -6,8 +6,10 @@
 #include <llvm/IR/DebugInfoMetadata.h>
 #include <llvm/IR/Instructions.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
+#include <unordered_map>
 
 namespace epiline::frontend {
 
@@ -29,17 +31,18 @@ file_facts find_facts(const llvm::DIFile& file) {
 }
 
 const file_facts& facts_of(const llvm::DIFile& file) {
+  struct known_file {
+    std::string name;  // what lies at that address now may be another file of another module
+    const file_facts* facts;
+  };
   thread_local std::map<std::string, file_facts> known;
-  thread_local const llvm::DIFile* last = nullptr;  // neighbours come from the same file
-  thread_local std::string last_name;
-  thread_local const file_facts* last_facts = nullptr;
-  if (&file == last && file.getFilename() == last_name) return *last_facts;
+  thread_local std::unordered_map<const llvm::DIFile*, known_file> seen;
+  const auto before = seen.find(&file);
+  if (before != seen.end() && before->second.name == file.getFilename()) return *before->second.facts;
   const std::string key = (file.getDirectory() + "|" + file.getFilename()).str();
   auto found = known.find(key);
   if (found == known.end()) found = known.emplace(key, find_facts(file)).first;
-  last = &file;
-  last_name = file.getFilename().str();
-  last_facts = &found->second;
+  seen[&file] = {file.getFilename().str(), &found->second};
   return found->second;
 }
 
@@ -75,6 +78,21 @@ source_place place_of(const llvm::Instruction& instruction) {
   for (const llvm::Instruction* at = &instruction; at != nullptr; at = at->getNextNode())
     if (const source_place place = place_of(at->getDebugLoc()); place.line != 0) return place;
   return place_of(*instruction.getFunction());
+}
+
+source_place instruction_places::of(const llvm::Instruction& instruction) {
+  if (nearest_.count(&instruction) == 0) {
+    const llvm::BasicBlock& block = *instruction.getParent();
+    const auto has_place = [](const llvm::Instruction& at) { return place_of(at.getDebugLoc()).line != 0; };
+    const auto first = std::find_if(block.begin(), block.end(), has_place);
+    const llvm::Instruction* nearest = first == block.end() ? nullptr : &*first;
+    for (const llvm::Instruction& at : block) {
+      if (has_place(at)) nearest = &at;
+      nearest_[&at] = nearest;
+    }
+  }
+  const llvm::Instruction* const nearest = nearest_.at(&instruction);
+  return nearest != nullptr ? place_of(nearest->getDebugLoc()) : place_of(*instruction.getFunction());
 }
 
 source_place place_of(const llvm::Function& function) {

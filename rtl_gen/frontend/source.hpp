@@ -9,6 +9,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "dataflow/graph.hpp"
@@ -32,6 +33,16 @@ struct source_place {
 /// The instruction's own place or, when optimisation lost it, that of the nearest instruction before it.
 [[nodiscard]] source_place place_of(const llvm::Instruction& instruction);
 [[nodiscard]] source_place place_of(const llvm::Function& function);
+
+/// place_of of many instructions: looks through each block once.
+class instruction_places {
+ public:
+  [[nodiscard]] source_place of(const llvm::Instruction& instruction);
+
+ private:
+  std::unordered_map<const llvm::Instruction*, const llvm::Instruction*> nearest_;  // that has a place
+};
+
 [[nodiscard]] source_place place_of(const llvm::DIVariable& variable);
 /// The line of `for`, `while` or `do`.
 [[nodiscard]] source_place place_of(const llvm::Loop& loop);

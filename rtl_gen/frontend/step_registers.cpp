@@ -52,6 +52,7 @@ void step_registers::assign(const alive_at& alive, const step_flow& flow) {
       leader[b] = a;
     }
   }
+  instruction_places places;
   std::map<const Instruction*, dataflow::register_id> of_leaders;
   for (const Instruction* value : values) {
     const Instruction* first = find(value);
@@ -60,7 +61,7 @@ void step_registers::assign(const alive_at& alive, const step_flow& flow) {
       dataflow::register_state made;
       made.name = readable_name(*first);
       made.width = first->getType()->getIntegerBitWidth();
-      made.where = nodes_.location(place_of(*first));
+      made.where = nodes_.location(places.of(*first));
       found->second = add(std::move(made));
     }
     register_of_[value] = found->second;
