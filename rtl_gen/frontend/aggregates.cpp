@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 #include <llvm/Analysis/LoopInfo.h>
 #include <llvm/IR/Dominators.h>
-#include <llvm/Transforms/Utils/PromoteMemToReg.h>
 
 #include <algorithm>
 #include <map>
 
 #include "frontend/array_forms.hpp"
+#include "frontend/promote.hpp"
 #include "frontend/variable_accesses.hpp"
 #include "frontend/variables.hpp"
 #include "frontend/vocabulary.hpp"
@@ -285,8 +285,7 @@ void split_aggregates(lowered_process& result) {
   const std::vector<variable> variables = find_variables(*result.function);
   splitting shared(result);
   for (const variable& of : variables) splitter(shared, of).split();
-  llvm::DominatorTree dominators(*result.function);
-  llvm::PromoteMemToReg(shared.scalars, dominators);
+  promote(*result.function, shared.scalars);
 }
 
 }  // namespace epiline::frontend
