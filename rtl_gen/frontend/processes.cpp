@@ -27,6 +27,15 @@ namespace {
 
 constexpr const char* dataflow_pragma = "__epiline_pragma_dataflow";
 
+/// Nothing is named after `this`, but every method that is inlined would take along where it is.
+void forget_this(llvm::Module& module) {
+  for (llvm::Function& function : module)
+    for (llvm::Instruction& instruction : llvm::instructions(function))
+      for (llvm::DbgVariableRecord& record :
+           llvm::make_early_inc_range(llvm::filterDbgVars(instruction.getDbgRecordRange())))
+        if (record.getVariable()->getName() == "this") record.eraseFromParent();
+}
+
 class splitter {
  public:
   splitter(compiled_source& source, const source_options& options)
@@ -36,6 +45,7 @@ class splitter {
         top_function_(find_defined_top(options)),
         streams_(module_, result_.top) {
     module_.setIsNewDbgInfoFormat(true);
+    forget_this(module_);
     result_.top = describe_top(top_function_, module_);
     result_.name = options.top.substr(options.top.rfind(':') + 1);
   }
