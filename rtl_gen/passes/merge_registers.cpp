@@ -3,6 +3,7 @@
 #include <array>
 #include <map>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "passes/builder.hpp"
@@ -17,7 +18,8 @@ constexpr unsigned max_rounds = 50;
 /// Numbers expressions so that two nodes have one number if they are equal whenever registers of one class are equal.
 class numbering {
  public:
-  explicit numbering(const graph& g) : g_(g), class_of_(g.registers.size()), number_(g.nodes.size()) {
+  explicit numbering(const graph& g)
+      : g_(g), scratch_(shell_of(g)), builder_(scratch_), class_of_(g.registers.size()), number_(g.nodes.size(), none) {
     std::map<std::vector<std::uint64_t>, std::uint32_t>
         classes;  // all registers of one initial value start in one class
     for (register_id r = 0; r < g.registers.size(); ++r) {
@@ -50,27 +52,45 @@ class numbering {
   const std::vector<std::uint32_t>& class_of() const { return class_of_; }
 
  private:
-  void number_nodes() {
-    graph scratch = shell_of(g_);
-    scratch.nodes.clear();
-    scratch.nodes.reserve(g_.nodes.size());
-    builder b(scratch);
+  /// The first register of the class of each, as the nodes read them.
+  std::vector<register_id> representatives() const {
     std::vector<register_id> first(count_, none);
+    std::vector<register_id> representative(g_.registers.size(), none);
+    for (const node& n : g_.nodes) {
+      if (n.kind != operation::register_value) continue;
+      register_id& of_class = first[class_of_[n.object]];
+      if (of_class == none) of_class = n.object;
+      representative[n.object] = of_class;
+    }
+    return representative;
+  }
+
+  /// A node that is made of the same as in the round before keeps its number.
+  void number_nodes() {
+    const std::vector<register_id> before = std::exchange(representative_, representatives());
+    std::vector<char> is_renumbered(g_.nodes.size(), 0);
     for (node_id id = 0; id < g_.nodes.size(); ++id) {
-      node n = g_.nodes[id];
-      for (node_id& operand : n.operands) operand = number_[operand];
-      if (n.kind == operation::register_value) {
-        register_id& representative = first[class_of_[n.object]];
-        if (representative == none) representative = n.object;
-        n.object = representative;
-      }
-      number_[id] = b.make(std::move(n));
+      const node& n = g_.nodes[id];
+      if (n.kind == operation::memory_write) continue;  // nothing is made of it
+      const bool is_register = n.kind == operation::register_value;
+      bool is_changed = number_[id] == none || (is_register && representative_[n.object] != before[n.object]);
+      for (const node_id operand : n.operands) is_changed = is_changed || is_renumbered[operand] != 0;
+      if (!is_changed) continue;
+      node again = {n.kind, n.width, n.operands, is_register ? representative_[n.object] : n.object,
+                    n.low,  n.value, {},         n.where};
+      for (node_id& operand : again.operands) operand = number_[operand];
+      const node_id number = builder_.make(std::move(again));
+      is_renumbered[id] = number != number_[id];
+      number_[id] = number;
     }
   }
 
   const graph& g_;
-  std::vector<std::uint32_t> class_of_;  // of each register
-  std::vector<node_id> number_;          // of each node
+  graph scratch_;  // of the nodes that numbers are of
+  builder builder_;
+  std::vector<std::uint32_t> class_of_;      // of each register
+  std::vector<register_id> representative_;  // of each register, in this round
+  std::vector<node_id> number_;              // of each node
   std::uint32_t count_ = 0;
 };
 
