@@ -5,6 +5,8 @@
 #include "passes/known_values.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 namespace epiline::passes {
 
@@ -15,9 +17,10 @@ using llvm::ConstantRange;
 
 namespace {
 
-constexpr unsigned exact_changes = 3;  // of a register, before its range is widened to powers of two
-constexpr unsigned max_changes = 60;   // before nothing is claimed any more
-constexpr unsigned max_depth = 4;      // of conditions and expressions looked through for facts
+constexpr unsigned exact_changes = 3;      // of a register, before its range is widened to powers of two
+constexpr unsigned max_changes = 60;       // before nothing is claimed any more
+constexpr unsigned max_depth = 4;          // of conditions and expressions looked through for facts
+constexpr unsigned reach = 2 * max_depth;  // of what a select is evaluated from: steps from user to operand
 
 ConstantRange widened(const ConstantRange& range) {
   const unsigned width = range.getBitWidth();
@@ -41,11 +44,28 @@ bool grow(value_set& set, const value_set& other, unsigned& changes) {
 
 }  // namespace
 
+known_values::user_lists::user_lists(const graph& g) : begins_(g.nodes.size() + 1, 0) {
+  for (const node& n : g.nodes)
+    for (const node_id operand : n.operands) ++begins_[operand + 1];
+  std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
+  users_.resize(begins_.back());
+  std::vector<std::uint32_t> ends(begins_.begin(), begins_.end() - 1);
+  for (node_id id = 0; id < g.nodes.size(); ++id)
+    for (const node_id operand : g.nodes[id].operands) users_[ends[operand]++] = id;
+}
+
 known_values::known_values(const graph& g)
     : g_(g),
-      touched_(g.nodes.size(), 1),
+      users_(g),
+      steps_to_change_(g.nodes.size(), 0),
+      pending_(static_cast<unsigned>(g.nodes.size())),
       register_changed_(g.registers.size(), 1),
       memory_changed_(g.memories.size(), 1) {
+  for (node_id id = 0; id < g.nodes.size(); ++id) {
+    const operation kind = g.nodes[id].kind;
+    if (kind == operation::register_value || kind == operation::memory_read) state_reads_.push_back(id);
+    if (kind == operation::memory_write) memory_writes_.push_back(id);
+  }
   for (const register_state& r : g.registers) registers_.emplace_back(r.initial.value_or(APInt(r.width, 0)));
   // A disabled read, or one past the end, gives 0: so 0 is in every set of words.
   const auto of_words = [](unsigned width, const std::vector<APInt>& words) {
@@ -63,32 +83,29 @@ known_values::known_values(const graph& g)
 
 void known_values::iterate() {
   std::vector<unsigned> register_changes(g_.registers.size(), 0), memory_changes(g_.memories.size(), 0);
-  for (bool changed = true; changed;) {
-    evaluate_touched();
-    changed = false;
-    for (register_id r = 0; r < g_.registers.size(); ++r) {
-      register_changed_[r] = 0;
-      const bool inputs_touched = touched_[g_.registers[r].next] || touched_[g_.registers[r].enable];
-      if (!inputs_touched || is_never(g_.registers[r].enable)) continue;
-      register_changed_[r] = grow(registers_[r], next_of(r), register_changes[r]);
-      changed |= register_changed_[r] != 0;
-    }
-    std::fill(memory_changed_.begin(), memory_changed_.end(), 0);
-    for (const node& n : g_.nodes) {
-      if (n.kind != operation::memory_write || is_never(n.operands[2])) continue;
-      if (!grow(memories_[n.object], nodes_[n.operands[1]], memory_changes[n.object])) continue;
-      memory_changed_[n.object] = 1;
-      changed = true;
-    }
-    // A node is evaluated again when anything it is made of may have changed: facts reach deeper than operands.
-    for (node_id id = 0; id < g_.nodes.size(); ++id) {
-      const node& n = g_.nodes[id];
-      touched_[id] = 0;
-      if (n.kind == operation::register_value) touched_[id] = register_changed_[n.object];
-      if (n.kind == operation::memory_read) touched_[id] = memory_changed_[n.object];
-      for (const node_id operand : n.operands) touched_[id] |= touched_[operand];
-    }
+  evaluate_all();
+  while (grow_state(register_changes, memory_changes)) evaluate_changed();
+}
+
+/// Whether any register or memory can hold more than was known.
+bool known_values::grow_state(std::vector<unsigned>& register_changes, std::vector<unsigned>& memory_changes) {
+  bool changed = false;
+  for (register_id r = 0; r < g_.registers.size(); ++r) {
+    register_changed_[r] = 0;
+    const auto [next, enable] = std::pair(g_.registers[r].next, g_.registers[r].enable);
+    if (std::min(steps_to_change_[next], steps_to_change_[enable]) > reach || is_never(enable)) continue;
+    register_changed_[r] = grow(registers_[r], next_of(r), register_changes[r]);
+    changed |= register_changed_[r] != 0;
   }
+  std::fill(memory_changed_.begin(), memory_changed_.end(), 0);
+  for (const node_id write : memory_writes_) {
+    const node& n = g_.nodes[write];
+    if (is_never(n.operands[2])) continue;
+    if (!grow(memories_[n.object], nodes_[n.operands[1]], memory_changes[n.object])) continue;
+    memory_changed_[n.object] = 1;
+    changed = true;
+  }
+  return changed;
 }
 
 /// Widening may have claimed too little. What a register can become from sets that hold is a set that holds.
@@ -102,23 +119,59 @@ void known_values::tighten() {
     sharper.push_back(std::move(set));
   }
   registers_ = std::move(sharper);
-  std::fill(touched_.begin(), touched_.end(), 1);
-  evaluate_touched();
+  evaluate_all();
 }
 
-void known_values::evaluate_touched() {
+void known_values::evaluate_all() {
+  reached_.clear();
   for (node_id id = 0; id < g_.nodes.size(); ++id) {
-    if (!touched_[id] || g_.nodes[id].width == 0) continue;
+    steps_to_change_[id] = 0;
+    reached_.push_back(id);
+    if (g_.nodes[id].width == 0) continue;
     nodes_[id] = evaluate(id);
     nodes_[id].settle();
   }
+}
+
+/// A node is evaluated again when its operands changed. A select looks deeper, but not further than `reach`.
+void known_values::evaluate_changed() {
+  for (const node_id id : reached_) steps_to_change_[id] = reach + 1;
+  reached_.clear();
+  for (const node_id id : state_reads_)
+    if (has_changed_state(id)) pending_.set(id);
+  // Users have larger numbers than their operands.
+  for (int at = pending_.find_first(); at >= 0; at = pending_.find_next(static_cast<unsigned>(at))) {
+    const auto id = static_cast<node_id>(at);
+    pending_.reset(id);
+    reached_.push_back(id);
+    const node& n = g_.nodes[id];
+    unsigned steps = has_changed_state(id) ? 0 : reach + 1;
+    for (const node_id operand : n.operands) steps = std::min(steps, steps_to_change_[operand] + 1u);
+    if (n.width != 0 && (steps <= 1 || n.kind == operation::select)) {
+      value_set again = evaluate(id);
+      again.settle();
+      const bool is_same = again == nodes_[id];
+      steps = is_same ? std::max(steps, 1u) : 0;
+      if (!is_same) nodes_[id] = std::move(again);
+    }
+    steps_to_change_[id] = static_cast<unsigned char>(steps);
+    if (steps < reach)
+      for (const node_id user : users_.of(id)) pending_.set(user);
+  }
+}
+
+/// Whether a node reads a register or memory that can hold more than in the round before.
+bool known_values::has_changed_state(node_id id) const {
+  const node& n = g_.nodes[id];
+  return (n.kind == operation::register_value && register_changed_[n.object]) ||
+         (n.kind == operation::memory_read && memory_changed_[n.object]);
 }
 
 bool known_values::is_never(node_id bit) const { return nodes_[bit].bits.isZero(); }
 
 value_set known_values::next_of(register_id id) const {
   const register_state& r = g_.registers[id];
-  std::vector<fact> facts;
+  fact_list facts;
   add_facts(r.enable, true, max_depth, facts);
   return facts.empty() ? nodes_[r.next] : refined(r.next, facts, max_depth);
 }
@@ -139,7 +192,7 @@ value_set known_values::evaluate(node_id id) const {
     case operation::select:
       return evaluate_select(n);
     default: {
-      std::vector<const value_set*> operands;
+      llvm::SmallVector<const value_set*, 4> operands;
       for (const node_id operand : n.operands) operands.push_back(&nodes_[operand]);
       return evaluate_sets(n, operands);
     }
@@ -149,7 +202,7 @@ value_set known_values::evaluate(node_id id) const {
 value_set known_values::evaluate_select(const node& n) const {
   const value_set& condition = nodes_[n.operands[0]];
   if (condition.is_single()) return nodes_[n.operands[condition.bits.isZero() ? 2 : 1]];
-  std::vector<fact> facts;
+  fact_list facts;
   add_facts(n.operands[0], true, max_depth, facts);
   value_set result = refined(n.operands[1], facts, max_depth);
   facts.clear();
@@ -159,7 +212,7 @@ value_set known_values::evaluate_select(const node& n) const {
 }
 
 /// Collects what `condition` being 1 (holds) or 0 says about the values it compares.
-void known_values::add_facts(node_id condition, bool holds, unsigned depth, std::vector<fact>& facts) const {
+void known_values::add_facts(node_id condition, bool holds, unsigned depth, fact_list& facts) const {
   const node& n = g_.nodes[condition];
   add_fact(condition, ConstantRange(APInt(1, holds ? 1 : 0)), 0, facts);
   if (depth == 0) return;
@@ -199,7 +252,7 @@ void known_values::add_facts(node_id condition, bool holds, unsigned depth, std:
 }
 
 /// Adds that `subject` lies in `range`, and what that says about the value it was made from.
-void known_values::add_fact(node_id subject, ConstantRange range, unsigned depth, std::vector<fact>& facts) const {
+void known_values::add_fact(node_id subject, ConstantRange range, unsigned depth, fact_list& facts) const {
   if (range.isEmptySet() || range.isFullSet()) return;
   facts.push_back({subject, range});
   if (depth == 0) return;
@@ -229,7 +282,7 @@ void known_values::add_fact(node_id subject, ConstantRange range, unsigned depth
 }
 
 /// The set of a node where the facts hold: its own fact, and its value computed anew from operands the facts are about.
-value_set known_values::refined(node_id id, const std::vector<fact>& facts, unsigned depth) const {
+value_set known_values::refined(node_id id, const fact_list& facts, unsigned depth) const {
   value_set result = nodes_[id];
   node_id earliest = none;
   for (const fact& f : facts) {
@@ -242,9 +295,9 @@ value_set known_values::refined(node_id id, const std::vector<fact>& facts, unsi
   const node& n = g_.nodes[id];
   const bool pure = n.kind >= operation::add && n.kind != operation::select;
   if (depth == 0 || !pure || n.operands.empty() || n.operands.size() > 2 || id <= earliest) return result;
-  std::vector<value_set> sets;
+  llvm::SmallVector<value_set, 2> sets;
   for (const node_id operand : n.operands) sets.push_back(refined(operand, facts, depth - 1));
-  std::vector<const value_set*> operands;
+  llvm::SmallVector<const value_set*, 2> operands;
   for (const value_set& set : sets) operands.push_back(&set);
   value_set anew = evaluate_sets(n, operands);
   anew.settle();

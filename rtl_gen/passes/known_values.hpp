@@ -2,6 +2,10 @@
 // What is known about every value before the machine runs: bits that never change and the interval a value stays in,
 // also through registers and memories.
 
+#include <llvm/ADT/ArrayRef.h>
+#include <llvm/ADT/BitVector.h>
+#include <llvm/ADT/SmallVector.h>
+
 #include <vector>
 
 #include "dataflow/graph.hpp"
@@ -24,21 +28,42 @@ class known_values {
     dataflow::node_id subject;
     llvm::ConstantRange range;
   };
+  using fact_list = llvm::SmallVector<fact, 8>;
 
   void iterate();
+  bool grow_state(std::vector<unsigned>& register_changes, std::vector<unsigned>& memory_changes);
   void tighten();
-  void evaluate_touched();
+  void evaluate_all();
+  void evaluate_changed();
+  bool has_changed_state(dataflow::node_id id) const;
   value_set evaluate(dataflow::node_id id) const;
   value_set evaluate_select(const dataflow::node& n) const;
-  void add_facts(dataflow::node_id condition, bool holds, unsigned depth, std::vector<fact>& facts) const;
-  void add_fact(dataflow::node_id subject, llvm::ConstantRange range, unsigned depth, std::vector<fact>& facts) const;
-  value_set refined(dataflow::node_id id, const std::vector<fact>& facts, unsigned depth) const;
+  void add_facts(dataflow::node_id condition, bool holds, unsigned depth, fact_list& facts) const;
+  void add_fact(dataflow::node_id subject, llvm::ConstantRange range, unsigned depth, fact_list& facts) const;
+  value_set refined(dataflow::node_id id, const fact_list& facts, unsigned depth) const;
   value_set next_of(dataflow::register_id id) const;
   bool is_never(dataflow::node_id bit) const;
 
+  /// The nodes that have a node as their operand, one list behind the other.
+  class user_lists {
+   public:
+    explicit user_lists(const dataflow::graph& g);
+    [[nodiscard]] llvm::ArrayRef<dataflow::node_id> of(dataflow::node_id id) const {
+      return llvm::ArrayRef(users_).slice(begins_[id], begins_[id + 1] - begins_[id]);
+    }
+
+   private:
+    std::vector<std::uint32_t> begins_;
+    std::vector<dataflow::node_id> users_;
+  };
+
   const dataflow::graph& g_;
   std::vector<value_set> nodes_, registers_, memories_, tables_;
-  std::vector<char> touched_;  // nodes to evaluate in this round
+  const user_lists users_;
+  std::vector<dataflow::node_id> state_reads_, memory_writes_;
+  std::vector<unsigned char> steps_to_change_;  // from each node to what it is made of that changed in this round
+  std::vector<dataflow::node_id> reached_;      // nodes that were evaluated in this round
+  llvm::BitVector pending_;                     // nodes still to be evaluated in it
   std::vector<char> register_changed_, memory_changed_;
 };
 

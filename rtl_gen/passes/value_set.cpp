@@ -62,7 +62,7 @@ void value_set::settle() {
 
 namespace {
 
-KnownBits bits_of(const node& n, const std::vector<const value_set*>& operands) {
+KnownBits bits_of(const node& n, llvm::ArrayRef<const value_set*> operands) {
   const KnownBits& a = operands[0]->bits;
   const auto b = [&]() -> const KnownBits& { return operands[1]->bits; };
   // LLVM's shifts take an amount of the value's width; one that does not fit means everything is shifted out.
@@ -125,7 +125,7 @@ KnownBits bits_of(const node& n, const std::vector<const value_set*>& operands) 
   }
 }
 
-ConstantRange range_of(const node& n, const std::vector<const value_set*>& operands) {
+ConstantRange range_of(const node& n, llvm::ArrayRef<const value_set*> operands) {
   const ConstantRange& a = operands[0]->range;
   const auto b = [&]() -> const ConstantRange& { return operands[1]->range; };
   const auto may_be_zero = [&] { return b().contains(APInt(n.width, 0)); };  // division by zero has rules of its own
@@ -197,7 +197,7 @@ ConstantRange range_of(const node& n, const std::vector<const value_set*>& opera
 
 }  // namespace
 
-value_set evaluate_sets(const node& n, const std::vector<const value_set*>& operands) {
+value_set evaluate_sets(const node& n, llvm::ArrayRef<const value_set*> operands) {
   value_set result(n.width);
   result.bits = bits_of(n, operands);
   if (result.bits.hasConflict()) result.bits.resetAll();

@@ -1,10 +1,9 @@
 #pragma once
 // Sets of bit vectors, as an analysis tracks them, and what operations do to them.
 
+#include <llvm/ADT/ArrayRef.h>
 #include <llvm/IR/ConstantRange.h>
 #include <llvm/Support/KnownBits.h>
-
-#include <vector>
 
 #include "dataflow/graph.hpp"
 
@@ -22,6 +21,7 @@ struct value_set {
   explicit value_set(unsigned width) : bits(width), range(width, true) {}
   explicit value_set(const llvm::APInt& value) : bits(llvm::KnownBits::makeConstant(value)), range(value) {}
 
+  [[nodiscard]] bool operator==(const value_set& other) const { return bits == other.bits && range == other.range; }
   [[nodiscard]] unsigned width() const { return bits.getBitWidth(); }
   [[nodiscard]] bool is_single() const { return bits.isConstant(); }
   /// Fewest low bits from which zero (sign) extension restores every value of the set; at least 1.
@@ -41,6 +41,6 @@ struct value_set {
 };
 
 /// All results a pure operation other than `constant` can have on operands from these sets (a superset).
-[[nodiscard]] value_set evaluate_sets(const dataflow::node& n, const std::vector<const value_set*>& operands);
+[[nodiscard]] value_set evaluate_sets(const dataflow::node& n, llvm::ArrayRef<const value_set*> operands);
 
 }  // namespace epiline::passes
