@@ -30,6 +30,7 @@ namespace epiline::check {
 struct options {
   std::filesystem::path folder;     // everything that is made stands in it
   std::string stimulus;             // a token file; empty: random tokens
+  bool recorded = false;            // it tells all that whole calls read and write: no native run
   std::vector<std::string> levels;  // empty: all whose tools are there
   std::uint64_t seed = 1;           // of random tokens and pauses
   std::uint64_t tokens = 200;       // random ones of a stream, or calls

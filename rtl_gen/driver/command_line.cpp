@@ -7,6 +7,7 @@
 #include <cctype>
 #include <filesystem>
 #include <regex>
+#include <set>
 #include <string_view>
 
 namespace epiline::driver {
@@ -27,16 +28,32 @@ void check_top_name(const std::string& top) {
   }
 }
 
+/// A top's name without its scopes.
+std::string base_name(const std::string& top) { return top.substr(top.rfind(':') + 1); }
+
+void check_tops(const command_line& given) {
+  std::set<std::string> names;
+  for (const std::string& top : given.tops) {
+    check_top_name(top);
+    if (!names.insert(base_name(top)).second)
+      throw usage_error(fmt::format("--top {}: another top has this name, and so its folder: compile them apart", top));
+  }
+  if (given.tops.size() > 1 && !given.depfile.empty())
+    throw usage_error("--depfile says what one Verilog file is made of: give one --top");
+}
+
 /// What the options of --check ask for, beside what it shares with a compilation.
 void prepare_check(command_line& given) {
   check::options& wanted = given.check_options;
   if (!given.check) {
     if (!wanted.stimulus.empty() || !wanted.levels.empty())
       throw usage_error("--stimulus and --levels are options of --check: give --check too");
+    if (wanted.recorded) throw usage_error("--recorded is an option of --check: give --check and --stimulus too");
     return;
   }
+  if (wanted.recorded && wanted.stimulus.empty())
+    throw usage_error("--recorded speaks of the file of --stimulus: give --stimulus too");
   if (given.axi_lite) throw usage_error("--check drives the call port: leave --axi-lite away");
-  wanted.folder = std::filesystem::path(given.output) / "check";
   wanted.seed = given.seed;
   wanted.target = given.target;
 }
@@ -76,7 +93,10 @@ void check_interval(const std::string& interval) {
 
 void add_options(CLI::App& app, command_line& given, std::string& clock, bool explains) {
   app.add_option("source", given.source.source, "the C++ file that defines the top function")->required(!explains);
-  app.add_option("--top", given.source.top, "the top function's name")->required(!explains);
+  app.add_option("--top", given.tops,
+                 "the top function's name; of several, each is compiled into a folder of its name in that of -o")
+      ->required(!explains)
+      ->allow_extra_args(false);
   app.add_option("-o,--output", given.output,
                  "folder for NAME.v, NAME.graph, NAME.signals.json, report.json, report.txt and report.html")
       ->required(!explains);
@@ -105,6 +125,8 @@ void add_options(CLI::App& app, command_line& given, std::string& clock, bool ex
   app.add_flag("--check", given.check,
                "run every form of the program, native to netlist, with one stimulus, and compare (docs/flow.md)");
   app.add_option("--stimulus", given.check_options.stimulus, "token file for --check; without it random tokens");
+  app.add_flag("--recorded", given.check_options.recorded,
+               "the file of --stimulus tells all that whole calls read and write: nothing runs natively");
   app.add_option("--levels", given.check_options.levels,
                  "those that --check runs; without it all whose tools are there")
       ->delimiter(',')
@@ -145,8 +167,15 @@ std::optional<command_line> read_command_line(int argc, char** argv, int& exit_c
   check_interval(given.interval);
   given.period_is_given = !clock.empty();
   if (given.period_is_given) given.period = parse_clock(clock);
-  if (given.explain.empty()) check_top_name(given.source.top);
+  check_tops(given);
   prepare_check(given);
+  return given;
+}
+
+command_line for_top(command_line given, std::size_t number) {
+  given.source.top = given.tops[number];
+  if (given.tops.size() > 1) given.output = std::filesystem::path(given.output) / base_name(given.source.top);
+  given.check_options.folder = std::filesystem::path(given.output) / "check";
   return given;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // What epiline-hls was asked for.
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
@@ -14,6 +15,7 @@ namespace epiline::driver {
 
 struct command_line {
   frontend::source_options source;
+  std::vector<std::string> tops;
   std::string target = "ecp5";
   double period = 6;             // nanoseconds
   bool period_is_given = false;  // otherwise the smallest possible will do when that is larger
@@ -43,5 +45,8 @@ class usage_error : public std::runtime_error {
 /// Reads the command line. Returns what was asked for; or, after --help, --version or a mistake that it has told, only
 /// the exit code in `exit_code`. Throws usage_error for values that contradict each other or mean nothing.
 [[nodiscard]] std::optional<command_line> read_command_line(int argc, char** argv, int& exit_code);
+
+/// What was asked for, for one of its tops: of several each has a folder of its own.
+[[nodiscard]] command_line for_top(command_line given, std::size_t number);
 
 }  // namespace epiline::driver

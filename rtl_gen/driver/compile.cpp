@@ -1,11 +1,15 @@
 #include "driver/compile.hpp"
 
 #include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <iterator>
 #include <map>
@@ -20,6 +24,7 @@
 #include "dataflow/network_text.hpp"
 #include "driver/choose_schedule.hpp"
 #include "driver/crash_report.hpp"
+#include "driver/messages.hpp"
 #include "driver/output_folder.hpp"
 #include "emit/network_report.hpp"
 #include "emit/network_verilog.hpp"
@@ -66,14 +71,25 @@ std::optional<emit::device_delays> find_delays(const command_line& given) {
   }
 }
 
-/// One compilation, from step to step.
+/// What the tops of a compilation have in common.
+struct common {
+  explicit common(const command_line& given) : model(given.target), delays(find_delays(given)) {}
+  schedule::delay_model model;
+  std::optional<emit::device_delays> delays;
+  llvm::LLVMContext context;
+  frontend::compiled_source source;
+  double seconds = 0;  // that clang took
+};
+
+/// The compilation of one top, from step to step.
 class compilation {
  public:
-  explicit compilation(const command_line& given)
-      : given_(given), model_(given.target), delays_(find_delays(given)), output_(given.output) {}
+  compilation(const command_line& given, common& shared)
+      : given_(given), model_(shared.model), delays_(shared.delays), output_(given.output) {}
 
-  void read_source() {
-    frontend::compiled_source source = frontend::compile(given_.source, context_);
+  void read_source(common& shared, std::size_t top) {
+    frontend::compiled_source& source = shared.source;
+    frontend::keep_top(*source.module, top);
     crash_on_purpose(given_.crash);
     dependencies_ = source.dependencies;
     if (given_.check) checker_ = std::make_unique<check::checker>(given_.check_options, given_.source, std::cout);
@@ -94,7 +110,7 @@ class compilation {
     }
     network_ = frontend::join_processes(split_, lowered_, std::move(graphs));
     if (checker_) checker_->see_network(network_);
-    seconds_.source = watch_.lap();
+    seconds_.source = shared.seconds + watch_.lap();
   }
 
   void run_passes() {
@@ -226,15 +242,14 @@ class compilation {
   }
 
   const command_line& given_;
-  const schedule::delay_model model_;
-  const std::optional<emit::device_delays> delays_;
+  const schedule::delay_model& model_;
+  const std::optional<emit::device_delays>& delays_;
   output_folder output_;
   stopwatch watch_;
   struct {
     double source = 0, passes = 0, schedule = 0;
   } seconds_;
 
-  llvm::LLVMContext context_;  // of all that follows
   frontend::split_top split_;
   std::vector<frontend::lowered_process> lowered_;
   std::vector<std::string> dependencies_;  // the files read
@@ -247,16 +262,57 @@ class compilation {
   nlohmann::json report_;
 };
 
-}  // namespace
-
-void compile(const command_line& given) {
-  compilation one(given);
-  one.read_source();
+void compile_top(const command_line& given, common& shared, std::size_t top) {
+  compilation one(given, shared);
+  one.read_source(shared, top);
   one.run_passes();
   one.make_schedules();
   one.write_files();
   one.check_hardware();
   if (!given.quiet) one.tell();
+}
+
+/// Runs `work` in a process of its own, which begins with all that is in memory now: an error in it leaves the others
+/// alone. Returns its exit code.
+int run_apart(const std::function<int()>& work) {
+  std::cout.flush();
+  const pid_t child = ::fork();
+  if (child < 0) throw usage_error("no process can be started: are there too many, or is the memory used up?");
+  if (child == 0) {
+    crash_report_of_this_process();
+    const int code = work();
+    std::cout.flush();
+    ::_exit(code);
+  }
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+}  // namespace
+
+int compile(const command_line& given) {
+  // Never destroyed: that would be a lot of work for nothing.
+  static common& shared = *new common(given);
+  stopwatch watch;
+  shared.source = frontend::compile(given.source, given.tops, shared.context);
+  shared.seconds = watch.lap();
+  if (given.tops.size() == 1) {
+    compile_top(for_top(given, 0), shared, 0);
+    return 0;
+  }
+  for (const std::string& note : shared.source.notes) std::cerr << note << '\n';
+  shared.source.notes.clear();
+  int worst = 0;
+  for (std::size_t top = 0; top < given.tops.size(); ++top)
+    worst = std::max(worst, run_apart([&] {
+                       return with_messages([&] {
+                         compile_top(for_top(given, top), shared, top);
+                         return 0;
+                       });
+                     }));
+  return worst;
 }
 
 }  // namespace epiline::driver

@@ -6,8 +6,8 @@
 namespace epiline::driver {
 
 /// Compiles, proves and checks as asked, and tells on standard output what became of it unless it is to be quiet.
-/// Throws usage_error, frontend::refused, schedule::infeasible, std::invalid_argument and check::cannot_check, with
-/// what the user is to read; then no file is left half written.
-void compile(const command_line& given);
+/// Throws what with_messages tells of; then no file is left half written. Several tops are compiled each in a process
+/// of its own, which tells of its errors itself. Returns the exit code.
+[[nodiscard]] int compile(const command_line& given);
 
 }  // namespace epiline::driver

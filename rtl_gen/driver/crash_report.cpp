@@ -86,12 +86,16 @@ unsigned use_up_the_stack(unsigned depth) {
 
 }  // namespace
 
-void watch_for_crashes(int argc, char** argv) {
+void crash_report_of_this_process() {
   const char* temporary = std::getenv("TMPDIR");
   folder = std::string(temporary != nullptr && *temporary != '\0' ? temporary : "/tmp") + "/epiline-hls-crash-" +
            std::to_string(::getpid());
   source_path = folder + "/source.cpp";
   command_path = folder + "/command.txt";
+}
+
+void watch_for_crashes(int argc, char** argv) {
+  crash_report_of_this_process();
   for (int i = 0; i < argc; ++i) command += (i == 0 ? "" : " ") + quoted(argv[i]);
   command += "\n";
 

@@ -10,6 +10,9 @@ namespace epiline::driver {
 /// when it is needed.
 void watch_for_crashes(int argc, char** argv);
 
+/// In a process that was forked: its report has a folder of its own.
+void crash_report_of_this_process();
+
 /// What the folder will hold as source.cpp.
 void keep_for_crash_report(std::string source);
 

@@ -1,12 +1,15 @@
 #include "frontend/compile.hpp"
 
 #include <fmt/format.h>
-#include <llvm/IRReader/IRReader.h>
+#include <llvm/ADT/DenseSet.h>
+#include <llvm/Bitcode/BitcodeReader.h>
+#include <llvm/IR/InstIterator.h>
+#include <llvm/Support/CommandLine.h>
+#include <llvm/Support/Error.h>
 #include <llvm/Support/FileSystem.h>
 #include <llvm/Support/MemoryBuffer.h>
 #include <llvm/Support/Path.h>
 #include <llvm/Support/Program.h>
-#include <llvm/Support/SourceMgr.h>
 
 #include <filesystem>
 #include <fstream>
@@ -95,29 +98,50 @@ std::string wrapper_source(const source_options& options) {
                      fs::absolute(options.source).lexically_normal().string());
 }
 
-/// The call of the top, behind the preprocessed source. The sizes of arrays are expressions in the top's namespace.
-std::string call_source(const source_options& options, const std::vector<std::string>& array_sizes) {
-  std::string counts;
-  for (const std::string& size : array_sizes) counts += size.empty() ? ", 0" : fmt::format(", ({})", size);
-  const llvm::StringRef top = llvm::StringRef(options.top).ltrim(':');
-  const std::string space =
-      top.contains("::") ? fmt::format("using namespace ::{}; ", top.rsplit("::").first.str()) : "";
-  return fmt::format("# 1 \"{}\"\nextern \"C\" void {}() {{ {}epiline::detail::call_for_ever<&::{}{}>(&::{}); }}\n",
-                     wrapper_file, process_name, space, options.top, counts, options.top);
+std::string process_of(std::size_t number) {
+  return number == 0 ? process_name : fmt::format("{}_{}", process_name, number);
 }
 
-[[noreturn]] void refuse_compilation(const source_options& options, const std::string& messages,
-                                     const std::string& program, const pragma_places& pragmas = {}) {
+/// The call of a top, behind the preprocessed source. The sizes of arrays are expressions in the top's namespace.
+std::string call_source(std::size_t number, const std::string& top, const std::vector<std::string>& array_sizes) {
+  std::string counts;
+  for (const std::string& size : array_sizes) counts += size.empty() ? ", 0" : fmt::format(", ({})", size);
+  const llvm::StringRef name = llvm::StringRef(top).ltrim(':');
+  const std::string space =
+      name.contains("::") ? fmt::format("using namespace ::{}; ", name.rsplit("::").first.str()) : "";
+  return fmt::format("# 1 \"{}\"\nextern \"C\" void {}() {{ {}epiline::detail::call_for_ever<&::{}{}>(&::{}); }}\n",
+                     wrapper_file, process_of(number), space, top, counts, top);
+}
+
+[[noreturn]] void refuse_compilation(const source_options& options, const std::vector<std::string>& tops,
+                                     const std::string& messages, const std::string& program,
+                                     const pragma_places& pragmas = {}) {
   if (messages.find(std::string(wrapper_file) + ":1:") == std::string::npos &&
       messages.find("the top returns a pointer") == std::string::npos)
     throw refused(explain_messages(messages, pragmas));
   // The call of the top does not compile: what is the top then?
+  std::size_t number = tops.size();
+  while (--number > 0 && messages.find(process_of(number) + "()") == std::string::npos) {  // clang shows the line
+  }
+  const std::string& top = tops[number];
   const std::string listing = program + ".txt";
-  const std::string base = options.top.substr(options.top.rfind(':') + 1);
+  const std::string base = top.substr(top.rfind(':') + 1);
   (void)run_clang({"-std=c++17", "-D__SYNTHESIS__", "-w", "-fsyntax-only", "-Xclang", "-ast-dump", "-Xclang",
                    "-ast-dump-filter=" + base, program},
                   listing);
-  throw refused(explain_top(options.top, shown_path(options.source), read_file(listing)));
+  throw refused(explain_top(top, shown_path(options.source), read_file(listing)));
+}
+
+refused unreadable(llvm::Error failure) {
+  return refused("error: clang's output cannot be read: " + llvm::toString(std::move(failure)));
+}
+
+/// clang's is of this very version and right. LLVM would look at all of it, that of every other top included, each time
+/// it has read a module.
+void trust_debug_information() {
+  auto& options = llvm::cl::getRegisteredOptions();
+  if (const auto found = options.find("disable-auto-upgrade-debug-info"); found != options.end())
+    found->second->addOccurrence(0, found->first(), "true");
 }
 
 }  // namespace
@@ -134,7 +158,8 @@ unsigned line_of_top(const source_options& options) {
   return 1;
 }
 
-compiled_source compile(const source_options& options, llvm::LLVMContext& context) {
+compiled_source compile(const source_options& options, const std::vector<std::string>& tops,
+                        llvm::LLVMContext& context) {
   if (!fs::is_regular_file(options.source)) throw refused(fmt::format("error: {}: no such file", options.source));
   const scratch_folder scratch;
   const std::string wrapper = scratch.file("wrapper.cpp");
@@ -158,10 +183,12 @@ compiled_source compile(const source_options& options, llvm::LLVMContext& contex
   for (const std::string& path : options.includes) preprocess.insert(preprocess.end(), {"-I", path});
   preprocess.insert(preprocess.end(), {"-I", EPILINE_TYPES_DIRECTORY "/.."});
   for (const std::string& definition : options.definitions) preprocess.push_back("-D" + definition);
-  if (!run_clang(preprocess, messages)) refuse_compilation(options, read_file(messages), preprocessed);
+  if (!run_clang(preprocess, messages)) refuse_compilation(options, tops, read_file(messages), preprocessed);
 
   std::string source = read_file(preprocessed);
-  source += call_source(options, sizes_of_array_parameters(source, options.top));
+  const std::vector<std::vector<std::string>> array_sizes = sizes_of_array_parameters(source, tops);
+  for (std::size_t number = 0; number < tops.size(); ++number)
+    source += call_source(number, tops[number], array_sizes[number]);
   if (options.on_preprocessed) options.on_preprocessed(source);
   compiled_source result;
   pragma_rewrite rewritten = rewrite_pragmas(source);
@@ -178,12 +205,55 @@ compiled_source compile(const source_options& options, llvm::LLVMContext& contex
   for (const char* mistake : {"uninitialized", "division-by-zero", "shift-count-overflow", "shift-count-negative",
                               "array-bounds"})  // what has no meaning, so that any hardware would be wrong
     translate.push_back(std::string("-Werror=") + mistake);
-  if (!run_clang(translate, messages)) refuse_compilation(options, read_file(messages), preprocessed, rewritten.places);
+  if (!run_clang(translate, messages))
+    refuse_compilation(options, tops, read_file(messages), preprocessed, rewritten.places);
 
-  llvm::SMDiagnostic diagnostic;
-  result.module = llvm::parseIRFile(bitcode, diagnostic, context);
-  if (!result.module) throw refused("error: clang's output cannot be read: " + diagnostic.getMessage().str());
+  trust_debug_information();
+  auto buffer = llvm::MemoryBuffer::getFile(bitcode);
+  if (!buffer) throw unreadable(llvm::errorCodeToError(buffer.getError()));
+  auto module = llvm::getOwningLazyBitcodeModule(std::move(*buffer), context);
+  if (!module) throw unreadable(module.takeError());
+  result.module = std::move(*module);
+  if (llvm::Error failure = result.module->materializeMetadata()) throw unreadable(std::move(failure));
   return result;
+}
+
+void keep_top(llvm::Module& module, std::size_t number) {
+  if (module.getFunction(process_of(1)) == nullptr) {  // the only one: the module as clang wrote it, in its order
+    if (llvm::Error failure = module.materializeAll()) throw unreadable(std::move(failure));
+    return;
+  }
+  llvm::Function* const process = module.getFunction(process_of(number));
+  llvm::DenseSet<const llvm::Constant*> kept;
+  std::vector<llvm::Constant*> pending{process};
+  for (llvm::GlobalVariable& variable : module.globals())
+    if (variable.getName().starts_with("llvm.")) pending.push_back(&variable);  // the start-up functions among them
+  while (!pending.empty()) {
+    llvm::Constant* const constant = pending.back();
+    pending.pop_back();
+    if (!kept.insert(constant).second) continue;
+    for (llvm::Use& operand : constant->operands())
+      if (auto* part = llvm::dyn_cast<llvm::Constant>(operand)) pending.push_back(part);
+    auto* const function = llvm::dyn_cast<llvm::Function>(constant);
+    if (function == nullptr) continue;
+    if (llvm::Error failure = function->materialize()) throw unreadable(std::move(failure));
+    for (llvm::Instruction& instruction : llvm::instructions(*function))
+      for (llvm::Use& operand : instruction.operands())
+        if (auto* used = llvm::dyn_cast<llvm::Constant>(operand)) pending.push_back(used);
+  }
+  std::vector<llvm::GlobalValue*> others;
+  for (llvm::GlobalValue& value : module.global_values())
+    if (!kept.contains(&value)) others.push_back(&value);
+  for (llvm::GlobalValue* value : others) {
+    if (auto* function = llvm::dyn_cast<llvm::Function>(value))
+      function->deleteBody();
+    else if (auto* variable = llvm::dyn_cast<llvm::GlobalVariable>(value))
+      variable->setInitializer(nullptr);
+  }
+  for (llvm::GlobalValue* value : others)
+    if (value->use_empty()) value->eraseFromParent();
+  if (llvm::Error failure = module.materializeAll()) throw unreadable(std::move(failure));
+  process->setName(process_name);
 }
 
 }  // namespace epiline::frontend

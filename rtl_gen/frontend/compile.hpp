@@ -11,7 +11,7 @@
 
 namespace epiline::frontend {
 
-/// The function of the IR that calls the top for ever.
+/// The function of the IR that calls the top for ever. While a module holds several tops, it is that of the first.
 inline constexpr const char* process_name = "__epiline_process";
 
 struct source_options {
@@ -23,7 +23,7 @@ struct source_options {
 };
 
 struct compiled_source {
-  std::unique_ptr<llvm::Module> module;
+  std::unique_ptr<llvm::Module> module;   // the functions of which are read when keep_top says so
   std::vector<std::string> notes;         // about pragmas, one line each
   std::vector<std::string> dependencies;  // every file read
 };
@@ -31,7 +31,13 @@ struct compiled_source {
 /// The first line of the source that names the top followed by a parenthesis; 1 when there is none.
 [[nodiscard]] unsigned line_of_top(const source_options& options);
 
+/// Compiles the source once for all these tops, one of which keep_top has to choose; `options` need not name one.
 /// Throws `refused` with clang's own message when the source does not compile, and when there is no such file or top.
-[[nodiscard]] compiled_source compile(const source_options& options, llvm::LLVMContext& context);
+[[nodiscard]] compiled_source compile(const source_options& options, const std::vector<std::string>& tops,
+                                      llvm::LLVMContext& context);
+
+/// Reads the functions of the module. Of several tops it leaves what the one of this number and the program's start-up
+/// need.
+void keep_top(llvm::Module& module, std::size_t number);
 
 }  // namespace epiline::frontend

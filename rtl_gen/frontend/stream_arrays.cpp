@@ -67,6 +67,23 @@ std::string without_line_markers(const std::string& preprocessed) {
   return text;
 }
 
+/// What stands in the brackets of the parameters of the function of that name, where it is defined.
+std::vector<std::string> sizes_in_definition(llvm::StringRef text, llvm::StringRef name) {
+  for (std::size_t at = text.find(name); at != llvm::StringRef::npos; at = text.find(name, at + 1)) {
+    if (at > 0 && is_of_name(text[at - 1])) continue;
+    const std::size_t open = text.find_first_not_of(" \t\n", at + name.size());
+    if (open == llvm::StringRef::npos || text[open] != '(') continue;
+    const std::size_t close = closing(text, open);
+    if (close == llvm::StringRef::npos) continue;
+    if (!text.drop_front(close + 1).ltrim().starts_with("{")) continue;  // a declaration or a call
+    std::vector<std::string> sizes;
+    for (const llvm::StringRef parameter : split_parameters(text.slice(open + 1, close)))
+      sizes.push_back(array_size(parameter));
+    return sizes;
+  }
+  return {};
+}
+
 /// The calls of a function of call_top.hpp, wherever they stand.
 std::vector<const llvm::CallInst*> notes(const llvm::Module& module, llvm::StringRef name) {
   std::vector<const llvm::CallInst*> calls;
@@ -82,23 +99,12 @@ unsigned number(const llvm::CallInst& call, unsigned operand) {
 
 }  // namespace
 
-std::vector<std::string> sizes_of_array_parameters(const std::string& preprocessed, const std::string& top) {
-  const std::string clean = without_line_markers(preprocessed);
-  const llvm::StringRef text = clean;
-  const std::string name = top.substr(top.rfind(':') + 1);
-  for (std::size_t at = text.find(name); at != llvm::StringRef::npos; at = text.find(name, at + 1)) {
-    if (at > 0 && is_of_name(text[at - 1])) continue;
-    const std::size_t open = text.find_first_not_of(" \t\n", at + name.size());
-    if (open == llvm::StringRef::npos || text[open] != '(') continue;
-    const std::size_t close = closing(text, open);
-    if (close == llvm::StringRef::npos) continue;
-    if (!text.drop_front(close + 1).ltrim().starts_with("{")) continue;  // a declaration or a call
-    std::vector<std::string> sizes;
-    for (const llvm::StringRef parameter : split_parameters(text.slice(open + 1, close)))
-      sizes.push_back(array_size(parameter));
-    return sizes;
-  }
-  return {};
+std::vector<std::vector<std::string>> sizes_of_array_parameters(const std::string& preprocessed,
+                                                                const std::vector<std::string>& tops) {
+  const std::string text = without_line_markers(preprocessed);
+  std::vector<std::vector<std::string>> sizes;
+  for (const std::string& top : tops) sizes.push_back(sizes_in_definition(text, top.substr(top.rfind(':') + 1)));
+  return sizes;
 }
 
 std::map<unsigned, unsigned> stream_arrays(llvm::Module& module) {

@@ -9,10 +9,10 @@
 
 namespace epiline::frontend {
 
-/// What stands in the brackets of each parameter of the top that is written as an array of one dimension, `in[LANES]`,
+/// What stands in the brackets of each parameter of each top that is written as an array of one dimension, `in[LANES]`,
 /// and nothing for others: to the compiler such a parameter is a pointer. Empty if the top's definition is not found.
-[[nodiscard]] std::vector<std::string> sizes_of_array_parameters(const std::string& preprocessed,
-                                                                 const std::string& top);
+[[nodiscard]] std::vector<std::vector<std::string>> sizes_of_array_parameters(const std::string& preprocessed,
+                                                                              const std::vector<std::string>& tops);
 
 /// The number of streams in each parameter that is an array of them, by its position from 0, as the call of the top
 /// notes it.

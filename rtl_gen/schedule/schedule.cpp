@@ -151,7 +151,11 @@ result make_random_schedule(const graph& g, const delay_model& model, const opti
   const problem& p = all.rules();
   attempt a = find_earliest(g, model, all, wanted);
   // Slack between components never contradicts anything.
-  std::mt19937_64 random(seed);
+  // The name counts as well: what is compiled with one seed, tops and processes, has draws of its own.
+  std::vector<std::uint32_t> words{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
+  words.insert(words.end(), g.name.begin(), g.name.end());
+  std::seed_seq mixed(words.begin(), words.end());
+  std::mt19937_64 random(mixed);
   for (constraint& c : a.system.constraints) {
     const bool between = a.system.component[c.from] != a.system.component[c.to];
     if (between && c.to != p.end() && random() % 4 == 0) c.distance += static_cast<int>(random() % 3);

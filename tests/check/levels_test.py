@@ -68,6 +68,11 @@ class Stimulus(CheckTest):
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertIn("stimulus file", again.stdout)
         self.assertEqual(kept.read_text(encoding="utf-8"), stimulus.read_text(encoding="utf-8"))
+        # As a record of whole calls it is compared with, and nothing runs natively.
+        record = [source, "crc32", "--levels", "passes", "--recorded", "--stimulus", "stimulus.tokens"]
+        recorded = self.check(*record)
+        self.assertEqual(recorded.returncode, 0, recorded.stderr)
+        self.assertEqual(list(self.table(recorded)), ["passes"])
         # The last token of the file is one that comes out.
         lines = stimulus.read_text(encoding="utf-8").splitlines()
         lines[-1] = "token " + ("0" if lines[-1] != "token 00000000" else "1")
@@ -76,6 +81,10 @@ class Stimulus(CheckTest):
         self.assertEqual(wrong.returncode, 1)
         self.assertRegex(wrong.stderr, r"crc32.cpp:\d+: error: level stimulus file differs: output 'checksum': token \d+ .* "
                                        r"the stimulus file says tdata=0\n")
+
+        wrong = self.check(*record)
+        self.assertEqual(wrong.returncode, 1)
+        self.assertRegex(wrong.stderr, r"crc32.cpp:\d+: error: level passes differs: after pass 1 .*: output 'checksum': token \d+ ")
 
     def test_random_tokens_depend_on_the_seed_only(self):
         kept = []

@@ -9,6 +9,10 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
+std::vector<std::string> sizes_of_array_parameters(const std::string& preprocessed, const std::string& top) {
+  return frontend::sizes_of_array_parameters(preprocessed, std::vector<std::string>{top}).front();
+}
+
 TEST(stream_arrays, finds_the_sizes_of_the_definition) {
   EXPECT_THAT(sizes_of_array_parameters("void top(hls::stream<int> in[4]);\n"
                                         "void other() { top(x[7]); }\n"
