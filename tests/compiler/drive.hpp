@@ -84,6 +84,13 @@ class token_visitor {
     at_ += width;
   }
   [[nodiscard]] const std::vector<field_format>& format() const { return format_; }
+  [[nodiscard]] bool gets() const { return mode_ == mode::get; }
+  [[nodiscard]] bool sets() const { return mode_ == mode::set; }
+  /// One that replaces the token by what the values are now.
+  [[nodiscard]] token_visitor reading_back() const {
+    token_->clear();
+    return {mode::get, token_};
+  }
 
  private:
   template <class Raw>
@@ -198,6 +205,20 @@ inline token token_of(payload_visit visit, void* value) {
   return result;
 }
 
+/// Goes through a token of a stream: reads one (mode get), writes one (mode set, after which the token is what was
+/// written), or neither (mode format). All that random programs need of a type of token is in this function.
+using stream_exchange = void (*)(hls::detail::stream_base* stream, token_visitor& to);
+template <class T>
+void exchange_tokens(hls::detail::stream_base* stream, token_visitor& to) {
+  T value{};
+  if (to.gets()) value = static_cast<hls::stream<T>*>(stream)->read();
+  visit_payload(value, to);
+  if (!to.sets()) return;
+  token_visitor back = to.reading_back();
+  visit_payload(value, back);
+  static_cast<hls::stream<T>*>(stream)->write(value);
+}
+
 /// One port as written to the file.
 struct channel {
   std::string name;
@@ -210,77 +231,89 @@ struct channel {
 class session {
  public:
   explicit session(std::string name, std::uint64_t seed) : name_(std::move(name)), random_(seed) {}
+  ~session() {
+    for (port* made : ports_) made->destroy();
+  }
   session(const session&) = delete;
   session& operator=(const session&) = delete;
 
   /// What does not depend on the type of the tokens.
   class port {
    public:
-    port(channel& c, payload_visit visit) : channel_(c), visit_(visit) {}
+    port(session& s, channel& c, hls::detail::stream_base& stream, stream_exchange exchange, void (*destroy)(port*))
+        : session_(s), channel_(c), stream_(stream), exchange_(exchange), destroy_(destroy) {}
     port(const port&) = delete;
     port& operator=(const port&) = delete;
-    virtual ~port() = default;
-    virtual void finish(session& s) = 0;
+    void destroy() { destroy_(this); }
 
-   protected:
-    void record(void* value) { channel_.tokens.push_back(token_of(visit_, value)); }
-    channel& channel_;
-    payload_visit visit_;
-  };
-
-  template <class T>
-  class input_stream final : public port {
-   public:
-    explicit input_stream(channel& c) : port(c, visit_erased<T>), stream(c.name.c_str()) {}
-    void push(T value) {
-      stream.write(value);
-      this->record(&value);
-    }
-    /// Takes the tokens that were not read out again: how many a program reads is sometimes known only afterwards.
-    void take_back() {
-      while (!stream.empty()) {
-        static_cast<void>(stream.read());
-        this->channel_.tokens.pop_back();
+    /// Writes random tokens into an input until it holds `count`.
+    void fill_up(std::size_t count) {
+      while (stream_.size() < count) {
+        token t = session_.any_token(channel_.fields);
+        token_visitor to(token_visitor::mode::set, &t);
+        exchange_(&stream_, to);
+        channel_.tokens.push_back(std::move(t));
       }
     }
-    void finish(session& s) override { s.expect_drained(stream); }
-    hls::stream<T> stream;
+    /// Takes the tokens of an input that were not read out again: how many a program reads is sometimes known only
+    /// afterwards.
+    void take_back() {
+      for (; !stream_.empty(); channel_.tokens.pop_back()) static_cast<void>(take());
+    }
+    void finish() {
+      if (channel_.direction == "input") session_.expect_drained(stream_);
+      while (channel_.direction == "output" && !stream_.empty()) channel_.tokens.push_back(take());
+    }
+
+   protected:
+    void record(payload_visit visit, void* value) { channel_.tokens.push_back(token_of(visit, value)); }
+
+   private:
+    token take() {
+      token t;
+      token_visitor to(token_visitor::mode::get, &t);
+      exchange_(&stream_, to);
+      return t;
+    }
+    session& session_;
+    channel& channel_;
+    hls::detail::stream_base& stream_;
+    stream_exchange exchange_;
+    void (*destroy_)(port*);
   };
 
   template <class T>
-  class output_stream final : public port {
+  class typed_port final : public port {
    public:
-    explicit output_stream(channel& c) : port(c, visit_erased<T>), stream(c.name.c_str()) {}
+    typed_port(session& s, channel& c)
+        : port(s, c, stream, exchange_tokens<T>, [](port* p) { delete static_cast<typed_port*>(p); }),
+          stream(c.name.c_str()) {}
+    void push(T value) {
+      stream.write(value);
+      this->record(visit_erased<T>, &value);
+    }
     /// Takes all tokens written since the last time.
     std::vector<T> drain() {
       std::vector<T> result;
       while (!stream.empty()) {
         result.push_back(stream.read());
-        this->record(&result.back());
+        this->record(visit_erased<T>, &result.back());
       }
       return result;
-    }
-    void finish(session&) override {
-      while (!stream.empty()) {
-        T value = stream.read();
-        this->record(&value);
-      }
     }
     hls::stream<T> stream;
   };
 
   template <class T>
-  input_stream<T>& input(const std::string& name) {
-    T blank{};
-    auto* made = new input_stream<T>(add(name, "input", "stream", format_of(visit_erased<T>, &blank)));
-    keep(made);
+  typed_port<T>& input(const char* name) {
+    auto* made = new typed_port<T>(*this, add(name, "input", exchange_tokens<T>));
+    ports_.push_back(made);
     return *made;
   }
   template <class T>
-  output_stream<T>& output(const std::string& name) {
-    T blank{};
-    auto* made = new output_stream<T>(add(name, "output", "stream", format_of(visit_erased<T>, &blank)));
-    keep(made);
+  typed_port<T>& output(const char* name) {
+    auto* made = new typed_port<T>(*this, add(name, "output", exchange_tokens<T>));
+    ports_.push_back(made);
     return *made;
   }
 
@@ -351,7 +384,7 @@ class session {
 
   /// Checks that nothing is left unread and writes the file. False if anything was wrong.
   bool finish(const std::string& directory) {
-    for (const auto& made : ports_) made->finish(*this);
+    for (port* made : ports_) made->finish();
     std::ofstream file(directory + "/" + name_ + ".tokens");
     for (const channel& c : channels_) {
       file << "port " << c.name << ' ' << c.direction << ' ' << c.kind;
@@ -369,7 +402,6 @@ class session {
   }
 
  private:
-  void keep(port* made) { ports_.emplace_back(made); }
   void add_result(const argument& a) {
     channel* c = find(a.name);
     if (c == nullptr) c = &add(a.name, "output", "result", {{"tdata", a.width}});
@@ -399,6 +431,11 @@ class session {
     }
     return nullptr;
   }
+  channel& add(const char* name, const char* direction, stream_exchange exchange) {
+    token_visitor to(token_visitor::mode::format, nullptr);
+    exchange(nullptr, to);
+    return add(name, direction, "stream", to.format());
+  }
   channel& add(const std::string& name, const char* direction, const char* kind, std::vector<field_format> fields) {
     channels_.push_back({name, direction, kind, std::move(fields), {}});
     return channels_.back();
@@ -407,7 +444,7 @@ class session {
   std::string name_;
   std::mt19937_64 random_;
   std::deque<channel> channels_;  // a deque: the streams hold references
-  std::vector<std::unique_ptr<port>> ports_;
+  std::vector<port*> ports_;
   bool failed_ = false;
 };
 

@@ -25,9 +25,12 @@ def spoil(folder, top, level):
 
 def main():
     code = subprocess.run([os.environ["EPILINE_HLS"], *sys.argv[1:]], check=False).returncode
-    if code == 0:
-        top = sys.argv[sys.argv.index("--top") + 1]
-        folder = pathlib.Path(sys.argv[sys.argv.index("-o") + 1])
+    tops = [top.split("::")[-1] for option, top in zip(sys.argv, sys.argv[1:]) if option == "--top"]
+    output = pathlib.Path(sys.argv[sys.argv.index("-o") + 1])
+    for top in tops:
+        folder = output / top if len(tops) > 1 else output
+        if not (folder / f"{top}.v").exists():
+            continue
         for fault in os.environ["EPILINE_FAULTS"].split(","):
             name, _, level = fault.partition(":")
             if name in ("*", top):

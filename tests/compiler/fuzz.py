@@ -243,7 +243,7 @@ def main():
     parser.add_argument("--programs", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=1000)
     parser.add_argument("-j", "--jobs", type=int, default=2)
-    parser.add_argument("--batch", type=int, default=100, help="programs in a batch: what is lost when the run is stopped")
+    parser.add_argument("--batch", type=int, default=200, help="programs in a batch: what is lost when the run is stopped")
     parser.add_argument("--group", type=int, default=50, help="modules in one Verilator build")
     parser.add_argument("--statistics", default="", help="also copy the statistics there, if nothing failed")
     parser.add_argument("--no-reduce", dest="reduce", action="store_false", help="leave failures as they are")

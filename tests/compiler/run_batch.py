@@ -32,16 +32,34 @@ from kernel_options import options_of  # noqa: E402
 
 COMPILER_SECONDS = 60
 NATIVE_SECONDS = 120
+# Random programs in one translation unit, of a native compiler or of epiline-hls: what costs is compiling ap_int's operators
+# for each pair of widths, and two hundred programs have far less than twice as many as a hundred.
+UNIT = 200
 # Every so manieth random program is made with a schedule drawn at random from the legal ones.
 RANDOM_SCHEDULE_EVERY = 4
-# Every so manieth random program also goes through Icarus Verilog and the interpreter after each pass (--check), which takes
-# three times as long as all the rest.
+# Every so manieth random program also goes through Icarus Verilog and the interpreter after each pass (--check), which is a
+# compilation of its own.
 CHECK_EVERY, CHECK_LEVELS = 25, "passes,rtl-icarus"
 
 
 def seed_of(name):
     """The seed of a random program; None for others."""
     return int(name.split("_")[1]) if re.fullmatch(r"random_[0-9]+", name) else None
+
+
+def units(names):
+    return [names[i:i + UNIT] for i in range(0, len(names), UNIT)]
+
+
+def without_blamed(names, messages):
+    """Several programs of which one does not compile, in pieces to try again: each that an error names by itself, and the
+    rest; or, when that leads nowhere, halves."""
+    errors = "\n".join(line for line in messages.splitlines() if "error" in line)
+    blamed = [n for n in names if re.search(rf"\b{n}(\.drive)?\.cpp:", errors)]
+    rest = [n for n in names if n not in blamed]
+    if blamed and rest:
+        return [[n] for n in blamed] + [rest]
+    return [names[:len(names) // 2], names[len(names) // 2:]]
 
 
 class Batch:
@@ -53,6 +71,7 @@ class Batch:
         self.sources = {}  # name -> source file
         self.features = {}  # name -> what is in a random program
         self.compiled_with = {}  # name -> options of epiline-hls
+        self.refusals = {}  # name -> what epiline-hls said of a program among others
         self.started = time.monotonic()
         self.folder_of_headers = pathlib.Path(options.precompiled or self.work / "precompiled").resolve()
         if not options.graph_only:
@@ -117,7 +136,6 @@ class Batch:
         tokens.mkdir(parents=True, exist_ok=True)
         build = self.work / ("native_" + re.sub(r"\W", "_", pathlib.Path(compiler).name))
         build.mkdir(exist_ok=True)
-        size = 25
         header = self.precompiled(compiler, extra)
 
         def compile_source(stem, text):
@@ -136,10 +154,10 @@ class Batch:
                 lines = [l for l in run.stderr.splitlines() if "error" in l][:3]
                 self.fail(part[0], "native", f"{compiler}: does not compile: " + "; ".join(lines))
                 return [], []
-            halves = [compile_part(part[:len(part) // 2]), compile_part(part[len(part) // 2:])]
-            return halves[0][0] + halves[1][0], halves[0][1] + halves[1][1]
+            pieces = [compile_part(piece) for piece in without_blamed(part, run.stderr)]
+            return sum((p[0] for p in pieces), []), sum((p[1] for p in pieces), [])
 
-        parts = self.parallel(compile_part, [names[i:i + size] for i in range(0, len(names), size)])
+        parts = self.parallel(compile_part, units(names))
         main = pathlib.Path(header[1]).with_name("main.o")  # the same for every batch
         if not main.exists():
             run, made = compile_source("main", f'#include "{HERE / "drive_main.cpp"}"\n')
@@ -174,30 +192,81 @@ class Batch:
         return good
 
     # ---- the compiler -------------------------------------------------------------------------------------------
-    def compile_program(self, name):
-        source = self.sources[name]
-        options = options_of(source)
-        folder = self.work / "rtl" / name
-        shutil.rmtree(folder, ignore_errors=True)
-        schedule = []
+    def options_of(self, name):
+        """The options that a program is to be compiled with."""
         seed = seed_of(name)
-        if seed is not None and seed % RANDOM_SCHEDULE_EVERY == 0:
-            schedule = ["--schedule", "random", "--seed", str(seed)]
+        is_random = seed is not None and seed % RANDOM_SCHEDULE_EVERY == 0
+        return options_of(self.sources[name]), ["--schedule", "random"] if is_random else []
+
+    def limited(self, *arguments):
+        """A run of epiline-hls; None if it took too long. Processor time counts: the machine may be busy otherwise."""
+        command = ["prlimit", f"--cpu={COMPILER_SECONDS}:{COMPILER_SECONDS + 5}", self.options.compiler, *arguments]
+        try:
+            run = subprocess.run(command, capture_output=True, text=True, timeout=30 * COMPILER_SECONDS, check=False)
+        except subprocess.TimeoutExpired:
+            return None
+        return None if run.returncode == -signal.SIGXCPU else run
+
+    def compile_together(self, names):
+        """Compiles random programs of one kind as the tops of one source, for which clang runs once. Leaves the folders of
+        those that went well; the others have to be compiled alone."""
+        if len(names) == 1:
+            return
+        texts = {n: self.sources[n].read_text(encoding="utf-8") for n in names}
+        includes = sorted({line for text in texts.values() for line in text.splitlines() if line.startswith("#include")})
+        source = self.work / "together" / f"{names[0]}.cpp"
+        source.parent.mkdir(exist_ok=True)
+        source.write_text("\n".join(includes + [f'namespace program_{n} {{\n#include "{self.sources[n]}"\n}}' for n in names])
+                          + "\n", encoding="utf-8")
+        tops = sum((["--top", f"program_{n}::{n}"] for n in names), [])
+        run = self.limited(str(source), *tops, "-o", str(self.work / "rtl"), "-q", *sum(self.options_of(names[0]), []))
+        if run is None:
+            return
+        if any(self.is_compiled(n) for n in names):
+            messages = re.split(r"(?m)^(?=note: |\S+: error: )", run.stderr)
+            for name in names:
+                said = [m for m in messages if re.match(rf"\S*\b{name}\.cpp:\d+: error: ", m)]
+                if len(said) == 1 and not self.is_compiled(name):
+                    self.refusals[name] = said[0].strip()
+        else:  # it did not come to the first top
+            for piece in without_blamed(names, run.stderr):
+                self.compile_together(piece)
+
+    def is_compiled(self, name):
+        return (self.work / "rtl" / name / "report.json").exists()
+
+    def compile_programs(self, names):
+        """Compiles all programs and returns those that went well."""
+        for name in names:
+            shutil.rmtree(self.work / "rtl" / name, ignore_errors=True)
+        if self.options.what in ("random", "files"):
+            kinds = {}
+            for name in names:
+                kinds.setdefault(str(self.options_of(name)), []).append(name)
+            self.parallel(self.compile_together, sum((units(kind) for kind in kinds.values()), []))
+        return [n for n in self.parallel(self.compile_program, names) if n]
+
+    def compile_program(self, name):
+        """Compiles a program alone, if that is to be done, and returns its name if that went well."""
+        source = self.sources[name]
+        options, schedule = self.options_of(name)
+        folder = self.work / "rtl" / name
+        if self.is_compiled(name):
+            self.compiled_with[name] = [*options, *schedule]
+            return name
         text = ""
         for attempt in range(3):
-            # Processor time: the machine may be busy with something else.
-            command = ["prlimit", f"--cpu={COMPILER_SECONDS}:{COMPILER_SECONDS + 5}", self.options.compiler, str(source), "--top", name, "-o", str(folder), *options, *schedule]
-            try:
-                run = subprocess.run(command, capture_output=True, text=True, timeout=30 * COMPILER_SECONDS, check=False)
-            except subprocess.TimeoutExpired:
-                run = None
-            if run is None or run.returncode == -signal.SIGXCPU:
-                self.fail(name, "compiler", f"takes more than {COMPILER_SECONDS} s: {' '.join(command)}")
-                return None
-            if run.returncode == 0:
+            arguments = [str(source), "--top", name, "-o", str(folder), *options, *schedule]
+            code, text = 1, self.refusals.pop(name, "")  # what was said when it was compiled with others
+            if not text:
+                run = self.limited(*arguments)
+                if run is None:
+                    self.fail(name, "compiler", f"takes more than {COMPILER_SECONDS} s: {' '.join(arguments)}")
+                    return None
+                code, text = run.returncode, (run.stderr + run.stdout).strip()
+            if code == 0:
                 self.compiled_with[name] = [*options, *schedule]
                 return name
-            text = (run.stderr + run.stdout).strip()
             # A period that is too short: the compiler says which one would do, or how many clocks an iteration needs, and
             # that has to do.
             smallest = re.search(r"smallest period possible[^:]*: ([0-9.]+) ns", text)
@@ -211,8 +280,8 @@ class Batch:
             else:
                 break
             self.notes.append(f"{name}: {' '.join(options)}")
-        code = f"exit code {run.returncode}" if run.returncode < 128 and run.returncode >= 0 else f"crashed ({run.returncode})"
-        self.fail(name, "compiler", f"{code}: {text[:700]}\n    command: {' '.join(command)}")
+        outcome = f"exit code {code}" if 0 <= code < 128 else f"crashed ({code})"
+        self.fail(name, "compiler", f"{outcome}: {text[:700]}\n    command: epiline-hls {' '.join(arguments)}")
         return None
 
     # ---- RTL ----------------------------------------------------------------------------------------------------
@@ -276,7 +345,7 @@ class Batch:
         return f"{iterations} iterations for {tokens} tokens of {match.group(1)}"
 
     def check(self, names):
-        names = [n for n in self.parallel(self.compile_program, names) if n]
+        names = self.compile_programs(names)
         self.stage(f"{len(names)} compiled to Verilog")
         size = self.options.group
         groups = [(i // size, names[i:i + size]) for i in range(0, len(names), size)]
@@ -294,7 +363,7 @@ class Batch:
         folder = self.work / "check" / name
         shutil.rmtree(folder, ignore_errors=True)
         command = [self.options.compiler, str(self.sources[name]), "--top", name, "-o", str(folder),
-                   *self.compiled_with[name], "--check", "--levels", CHECK_LEVELS, "--stimulus",
+                   *self.compiled_with[name], "--check", "--levels", CHECK_LEVELS, "--recorded", "--stimulus",
                    str(self.work / "tokens" / f"{name}.tokens")]
         run = subprocess.run(command, capture_output=True, text=True, check=False)
         if run.returncode == 0:

@@ -158,9 +158,9 @@ class stream<T, 0> : public detail::stream_base {
  public:
   using value_type = T;
 
-  stream() : stream(nullptr) {}
-  explicit stream(const char* name) : stream(0, name) {}
-  explicit stream(const std::string& name) : stream(name.c_str()) {}
+  stream() : stream_base(0, nullptr) {}
+  explicit stream(const char* name) : stream_base(0, name) {}
+  explicit stream(const std::string& name) : stream_base(0, name.c_str()) {}
   ~stream() { delete[] slots_; }
 
   /// Takes the oldest token. Throws stream_error if there is none.

@@ -32,8 +32,7 @@ def driver(name, ports, scalars, results, calls, most, packets=None):
             lines.append(f'      {port["name"]}.push(beat);')
             lines.append("    }")
         else:
-            lines.append(f'    while ({port["name"]}.stream.size() < {most}) '
-                         f'{port["name"]}.push(s.any<{port["type"]}>());')
+            lines.append(f'    {port["name"]}.fill_up({most});')
     arguments = []
     for scalar, (text, _, _), bound in scalars:
         if bound:

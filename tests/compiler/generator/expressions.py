@@ -328,7 +328,8 @@ class Expressions:
             return self.compare(max(0, depth))
         if pick < 0.75:
             a = self.ap_operand(depth - 1)
-            return Value(f"(bool({a.text}))", 1, False, tainted=a.tainted, c_int=True)
+            # Not (bool(T(v))), which g++ takes for a cast to a function type, and what follows for its operand.
+            return Value(f"static_cast<bool>({a.text})", 1, False, tainted=a.tainted, c_int=True)
         if pick < 0.85:
             a = self.condition(depth - 1)
             return Value(f"!{a.text}", 1, False, tainted=a.tainted, c_int=True)
