@@ -116,7 +116,8 @@ class Batch:
             header.parent.mkdir(parents=True, exist_ok=True)
             header.write_text(f'#include "{HERE / "drive.hpp"}"\n', encoding="utf-8")
             part = made.with_suffix(f".{os.getpid()}")
-            subprocess.run([compiler, *self.native_flags(), *extra, "-x", "c++-header", str(header), "-o", str(part)],
+            subprocess.run([compiler, *self.native_flags(), *extra, *verilator_group.as_header(compiler), str(header), "-o",
+                            str(part)],
                            check=True)
             part.rename(made)
         return ["-include-pch", str(made)] if is_clang else ["-include", str(header)]

@@ -120,6 +120,12 @@ def problem_of(run, what):
     return f"{what}: " + ("; ".join(l for l in run.stderr.splitlines() if "rror" in l)[:600] or f"exit code {run.returncode}")
 
 
+def as_header(cxx):
+    """What a C++ compiler has to be told to make a precompiled header that holds as long as the contents of its sources do:
+    clang would ask for their times, too, which a checkout changes."""
+    return ["-x", "c++-header", *(["-Xclang", "-fno-pch-timestamp"] if "clang" in pathlib.Path(cxx).name else [])]
+
+
 class Builder:
     """Builds groups into shared libraries with the C function epiline_make_model(name, seed).
 
@@ -144,7 +150,7 @@ class Builder:
             header.write_text('#include "group_model.hpp"\n#include <verilated_dpi.h>\n#include <verilated_syms.h>\n',
                               encoding="utf-8")
             part = made.with_suffix(f".{os.getpid()}")
-            subprocess.run([self.cxx, *self.options, "-x", "c++-header", str(header), "-o", str(part)], check=True)
+            subprocess.run([self.cxx, *self.options, *as_header(self.cxx), str(header), "-o", str(part)], check=True)
             part.rename(made)
         return ["-include-pch", str(made)] if is_clang else ["-include", str(header)]
 
