@@ -34,6 +34,18 @@ schedule::result find_schedule(const dataflow::graph& graph, const schedule::del
       return schedule_as_asked(graph, model, options, given);
     } catch (const schedule::infeasible& refusal) {
       if (options.initiation_interval < largest) continue;
+      // What goes through a memory's address and back takes clocks, however long they are.
+      if (!given.interval_is_given && refusal.smallest_period() <= 0 && refusal.smallest_interval() > 0) {
+        std::cerr << fmt::format(
+            "note: {} cannot be reached with any period; made for one every {} clocks. The reason:\n{}\n",
+            options.initiation_interval == 1
+                ? "one iteration every clock"
+                : fmt::format("one iteration every {} clocks", options.initiation_interval),
+            refusal.smallest_interval(), refusal.what());
+        largest = refusal.smallest_interval();
+        options.initiation_interval = largest - 1;
+        continue;
+      }
       if (given.period_is_given || options.period != given.period || refusal.smallest_period() <= 0) throw;
       std::cerr << fmt::format(
           "note: {:.2f} ns cannot be reached; made for {:.2f} ns, the smallest period possible. The reason:\n{}\n",

@@ -165,6 +165,7 @@ std::optional<command_line> read_command_line(int argc, char** argv, int& exit_c
     return std::nullopt;
   }
   check_interval(given.interval);
+  given.interval_is_given = app.count("--ii") != 0;
   given.period_is_given = !clock.empty();
   if (given.period_is_given) given.period = parse_clock(clock);
   check_tops(given);

@@ -20,6 +20,7 @@ struct command_line {
   double period = 6;             // nanoseconds
   bool period_is_given = false;  // otherwise the smallest possible will do when that is larger
   std::string interval = "1";
+  bool interval_is_given = false;  // otherwise more clocks will do when no period helps
   std::string scheduler = "optimal";
   std::uint64_t seed = 1;
   std::string output;

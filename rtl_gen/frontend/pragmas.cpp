@@ -105,7 +105,7 @@ void check_options(const pragma_line& pragma, std::initializer_list<const char*>
                                 llvm::StringRef(pragma.name).upper(), key, fmt::join(known, ", ")));
 }
 
-std::string dependence_call(const pragma_line& pragma, const source_place& place) {
+std::string dependence_call(const pragma_line& pragma, const source_place& place, std::vector<std::string>& notes) {
   const std::string variable = pragma.get("variable");
   check_options(pragma,
                 {"variable", "type", "intra", "inter", "direction", "raw", "war", "waw", "distance", "dependent",
@@ -113,9 +113,15 @@ std::string dependence_call(const pragma_line& pragma, const source_place& place
                 place);
   if (variable.empty()) refuse(place, "#pragma HLS DEPENDENCE without variable=NAME: name the array it speaks of");
   if (has_kind(pragma, "intra")) return "";  // order within an iteration is always kept here
-  const bool none = has_kind(pragma, "false") || pragma.get("dependent") == "false";
-  constexpr int no_distance = 1000000;  // iterations: never
-  const std::string distance = number_of(pragma, "distance", none ? no_distance : 1, 1, place);
+  // Vendors' sources say `false` of line buffers, whose words are read again a row later. It promises no distance that
+  // hardware could count on for every row.
+  if ((has_kind(pragma, "false") || pragma.get("dependent") == "false") && !pragma.has("distance"))
+    notes.push_back(
+        fmt::format("{}:{}: note: DEPENDENCE false of '{}' has no effect: what is written can be read in the next "
+                    "iteration, as it can natively: where no word is read within N iterations of its writing, "
+                    "distance=N true saves the logic for that",
+                    place.file, place.line, variable));
+  const std::string distance = number_of(pragma, "distance", 1, 1, place);
   return fmt::format("__epiline_pragma_dependence((const void*)&({}), {});", variable, distance);
 }
 
@@ -177,7 +183,7 @@ std::string replacement(const pragma_line& pragma, const source_place& place, st
     if (pragma.has("off")) return "";
     return fmt::format("__epiline_pragma_unroll({});", number_of(pragma, "factor", 0, 1, place));
   }
-  if (pragma.name == "dependence") return dependence_call(pragma, place);
+  if (pragma.name == "dependence") return dependence_call(pragma, place, notes);
   if (pragma.name == "reset") return reset_call(pragma, place);
   if (pragma.name == "array_partition") return partition_call(pragma, place, notes);
   if (pragma.name == "interface") {
@@ -204,9 +210,10 @@ std::string replacement(const pragma_line& pragma, const source_place& place, st
                                         "top",     "protocol",       "performance"};
   for (const char* name : natural)
     if (pragma.name == name) return "";
-  static const char* const advisory[] = {"bind_storage",  "bind_op",    "resource",
-                                         "allocation",    "loop_merge", "function_instantiate",
-                                         "array_reshape", "stable"};
+  static const char* const advisory[] = {
+      "bind_storage",  "bind_op", "resource",  "allocation", "loop_merge", "function_instantiate",
+      "array_reshape", "stable",  "array_map", "occurrence", "clock",      "shared",
+      "cache"};
   for (const char* name : advisory)
     if (pragma.name == name) {
       notes.push_back(fmt::format("{}:{}: note: #pragma HLS {} has no effect: the flow chooses this itself", place.file,

@@ -1,7 +1,10 @@
 #include <ap_axi_sdata.h>
+#include <ap_fixed.h>
 #include <gtest/gtest.h>
 #include <hls_stream.h>
 
+#include <cstring>
+#include <new>
 #include <type_traits>
 
 namespace {
@@ -40,8 +43,51 @@ static_assert(std::is_same_v<decltype(ap_axis<24>::data), ap_int<24>>);
 static_assert(std::is_same_v<decltype(hls::axis<rgb>::data), rgb>);
 // Absent fields cost nothing.
 static_assert(sizeof(ap_axiu<8>) == 4 && sizeof(ap_axiu<8, 1>) == 5 && sizeof(ap_axiu<8, 1, 1, 1>) == 7);
-static_assert(std::is_trivially_copyable_v<ap_axiu<24, 1, 1, 1>> &&
-              std::is_trivially_default_constructible_v<ap_axiu<24, 1, 1, 1>>);
+static_assert(std::is_trivially_copyable_v<ap_axiu<24, 1, 1, 1>>);
+// Of fixed point, too, it is the bits that count.
+static_assert(has<hls::axis<ap_fixed<19, 4>>, 3, 0, 0, 0>);
+
+// What AXIS_ENABLE_... asks for.
+template <class T, class = void>
+constexpr bool has_data = false;
+template <class T>
+constexpr bool has_data<T, std::void_t<decltype(T::data)>> = true;
+template <class T, class = void>
+constexpr bool has_keep = false;
+template <class T>
+constexpr bool has_keep<T, std::void_t<decltype(T::keep)>> = true;
+template <class T, class = void>
+constexpr bool has_strb = false;
+template <class T>
+constexpr bool has_strb<T, std::void_t<decltype(T::strb)>> = true;
+template <class T, class = void>
+constexpr bool has_last = false;
+template <class T>
+constexpr bool has_last<T, std::void_t<decltype(T::last)>> = true;
+
+template <class T, bool data, bool keep, bool strb, bool last>
+constexpr bool has_only = has_data<T> == data && has_keep<T> == keep && has_strb<T> == strb && has_last<T> == last;
+
+static_assert(has_only<hls::axis_data<int, AXIS_ENABLE_LAST>, true, false, false, true>);
+static_assert(has_only<hls::axis_data<int, AXIS_ENABLE_KEEP | AXIS_ENABLE_LAST>, true, true, false, true>);
+static_assert(has_only<ap_axiu<24, 1, 0, 0, AXIS_ENABLE_KEEP | AXIS_ENABLE_STRB, true>, true, true, true, false>);
+static_assert(has_only<ap_axis<32, 0, 0, 0, AXIS_ENABLE_DATA | AXIS_ENABLE_LAST>, true, false, false, true>);
+static_assert(has_only<qdma_axis<64, 0, 0, 0>, true, true, false, true>);
+static_assert(has_only<hls::axis_user<13, AXIS_ENABLE_USER | AXIS_ENABLE_LAST>, false, false, false, true>);
+static_assert(user_width<hls::axis_user<13>> == 13 && sizeof(hls::axis_user<8, 0>) == 1);
+
+TEST(ap_axi_sdata, is_zero_where_nothing_is_written) {
+  alignas(ap_axiu<24, 2, 3, 4>) unsigned char room[sizeof(ap_axiu<24, 2, 3, 4>)];
+  std::memset(room, 0xff, sizeof room);
+  const auto& beat = *new (room) ap_axiu<24, 2, 3, 4>;
+  EXPECT_EQ(beat.data, 0);
+  EXPECT_EQ(beat.keep, 0);
+  EXPECT_EQ(beat.strb, 0);
+  EXPECT_EQ(beat.user, 0);
+  EXPECT_EQ(beat.last, 0);
+  EXPECT_EQ(beat.id, 0);
+  EXPECT_EQ(beat.dest, 0);
+}
 
 TEST(ap_axi_sdata, holds_a_video_beat) {
   hls::stream<ap_axiu<24, 1, 1, 1>> video("video");
