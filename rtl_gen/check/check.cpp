@@ -416,7 +416,7 @@ const std::vector<std::uint64_t>& checker::peak_fills() const { return state_->p
 
 void checker::see_source(llvm::Module& module) {
   state_->top.members = frontend::parameter_members(module, state_->top.source.top);
-  state_->top.stream_arrays = frontend::stream_arrays(module);
+  state_->top.arrays = frontend::all_arrays(module);
   if (wants("ir-source")) state_->top.source_ir = executable_source(module);
 }
 

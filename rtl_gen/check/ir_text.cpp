@@ -121,10 +121,21 @@ class source_rewriter : rewriter {
       if (!call->use_empty()) call->replaceAllUsesWith(llvm::Constant::getNullValue(call->getType()));
       call->eraseFromParent();
     }
+    clear_variables();
     return finish(frontend::process_name, "epiline_top_for_ever");
   }
 
  private:
+  /// What is never written is 0, as natively and in hardware: side channels that a source leaves out.
+  void clear_variables() {
+    for (llvm::Function& function : module_)
+      for (llvm::Instruction& instruction : llvm::instructions(function))
+        if (auto* slot = llvm::dyn_cast<llvm::AllocaInst>(&instruction)) {
+          builder_.SetInsertPoint(slot->getNextNode());
+          builder_.CreateStore(llvm::Constant::getNullValue(slot->getAllocatedType()), slot);
+        }
+  }
+
   struct payload {
     llvm::Type* type;
     std::vector<frontend::leaf> leaves;
@@ -139,10 +150,13 @@ class source_rewriter : rewriter {
     llvm::Function& function = *old.getFunction();
     const bool argument = name == "__epiline_argument", read = name == "__epiline_stream_read";
     const bool result = name == "__epiline_result", write = name == "__epiline_stream_write";
-    if (argument || read) {
+    const bool unwritten = name == "__epiline_unwritten";
+    if (argument || unwritten || read) {
       const payload of = payload_of(old);
-      llvm::Value* const token = receive(argument ? "epiline_check_argument" : "epiline_check_read", function,
-                                         {old.getArgOperand(0)}, frontend::width_of(of.leaves));
+      llvm::Value* const token = receive(argument    ? "epiline_check_argument"
+                                         : unwritten ? "epiline_check_unwritten"
+                                                     : "epiline_check_read",
+                                         function, {old.getArgOperand(0)}, frontend::width_of(of.leaves));
       frontend::unpack_token(builder_, token, old.getArgOperand(1), of.type, of.leaves);
     } else if (result || write) {
       const payload of = payload_of(old);
@@ -150,8 +164,6 @@ class source_rewriter : rewriter {
            frontend::pack_token(builder_, old.getArgOperand(1), of.type, of.leaves));
     } else if (name == "__epiline_port") {
       call("epiline_check_port", {old.getArgOperand(0), old.getArgOperand(1)}, nullptr, 0);
-    } else if (name == "__epiline_unwritten") {
-      call("epiline_check_result_begins", {old.getArgOperand(0)}, nullptr, 0);
     }
   }
 };

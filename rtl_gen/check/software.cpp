@@ -66,11 +66,11 @@ std::string native_source(const top_parts& top, const dataflow::network& n) {
                                                                         : "output";
     table += fmt::format("      {{epiline::check::role::{}, {}, {}}},\n", role, at.port, at.width);
   }
-  std::string counts;  // of streams, for each parameter up to the last array
-  const unsigned positions = top.stream_arrays.empty() ? 0 : top.stream_arrays.rbegin()->first + 1;
+  std::string counts;  // of elements, for each parameter up to the last array
+  const unsigned positions = top.arrays.empty() ? 0 : top.arrays.rbegin()->first + 1;
   for (unsigned position = 0; position < positions; ++position) {
-    const auto array = top.stream_arrays.find(position);
-    counts += fmt::format(", {}", array == top.stream_arrays.end() ? 0 : array->second);
+    const auto array = top.arrays.find(position);
+    counts += fmt::format(", {}", array == top.arrays.end() ? 0 : array->second);
   }
   text += fmt::format(
       "}}\n\nint main(int argc, char** argv) {{\n  epiline::check::drive<&::{0}{2}>(&::{0}, {{\n{1}  }}, argc, "

@@ -25,6 +25,7 @@
 #include "frontend/payload.hpp"
 #include "frontend/pointer_choices.hpp"
 #include "frontend/power_up.hpp"
+#include "frontend/reference_parameters.hpp"
 #include "frontend/start_up.hpp"
 #include "frontend/vocabulary.hpp"
 
@@ -94,10 +95,11 @@ class port_lowering {
   /// The reasons of call_top.hpp.
   [[noreturn]] void refuse_parameter(const llvm::CallInst& call) const {
     static const char* const reasons[] = {
-        ("is a pointer or array: pass data through hls::stream references, or an array of one dimension of streams, "
-         "written with its size"),
-        ("is an array by reference: pass data through hls::stream references, an array of one dimension of them, or a "
-         "struct of few members"),
+        ("is a pointer to what is no value: pass data through hls::stream references, or an array of one dimension of "
+         "streams, written with its size"),
+        ("is an array of more than 128 bytes, or of no values: pass data through hls::stream references, or an array "
+         "of "
+         "one dimension of them"),
         "is a stream by value or by const reference: pass it as hls::stream<T>&",
         "is an rvalue reference: pass a scalar by value"};
     const auto reason = llvm::cast<llvm::ConstantInt>(call.getArgOperand(1))->getZExtValue();
@@ -412,6 +414,7 @@ lowered_process lower(process_source& source) {
   check_operations(process);
   check_endless_loops(managers.function.getResult<llvm::LoopAnalysis>(process));
   cut_after_noreturn(process);
+  if (!source.is_part) pass_what_is_read(process, source.top);
   port_lowering(result, source).run();
   managers.function.invalidate(process, llvm::PreservedAnalyses::none());
   run_passes(process, managers, early_cleanup());

@@ -100,6 +100,15 @@ std::vector<std::optional<std::string>> parameter_members(llvm::Module& module, 
       if (const auto* pointer = llvm::dyn_cast_or_null<llvm::DIDerivedType>(type);
           pointer != nullptr && pointer->getTag() == llvm::dwarf::DW_TAG_pointer_type)
         type = bare(pointer->getBaseType());
+    if (const auto* pointer = llvm::dyn_cast_or_null<llvm::DIDerivedType>(type);
+        pointer != nullptr && pointer->getTag() == llvm::dwarf::DW_TAG_pointer_type) {
+      // To one value or, as the driver knows, to an array's.
+      std::string text;
+      const bool known = visit(pointer->getBaseType(), "element", 0, text);
+      text = fmt::format("each(v, [&](auto& element) {{ {} }});", text);
+      result.push_back(known ? std::optional(text) : std::nullopt);
+      continue;
+    }
     add(type, array == arrays.end() ? 1 : array->second);
   }
   if (returned_position(module) != 0) add(bare(types[0]), 1);

@@ -23,6 +23,12 @@ bool only_marks(const llvm::CallBase& call) {
   return calls_named(call, "__epiline_pragma_");
 }
 
+/// Whether a call is one of those that tell what a parameter of the top is.
+bool only_passes(const llvm::CallBase& call) {
+  return calls_named(call, "__epiline_result") || calls_named(call, "__epiline_argument") ||
+         calls_named(call, "__epiline_unwritten") || calls_named(call, "__epiline_single");
+}
+
 /// Follows a pointer into everything that is done with it.
 class pointer_walk {
  public:
@@ -60,7 +66,7 @@ class pointer_walk {
       if (copy->getRawDest() == pointer) note_write(call);
       return;
     }
-    if (calls_named(call, "__epiline_stream_write")) return;
+    if (calls_named(call, "__epiline_stream_write") || only_passes(call)) return;
     if (calls_named(call, "__epiline_stream_") && call.getArgOperand(0) == pointer) return;  // a stream in an object
     const llvm::Function* callee = call.getCalledFunction();
     if (callee == nullptr || callee->isDeclaration()) return note_write(call);
@@ -106,9 +112,7 @@ void check_local(const llvm::Value& variable, const llvm::Value& pointer, const 
       check_local(variable, *instruction, writer);
     } else if (const auto* call = llvm::dyn_cast<llvm::CallBase>(instruction)) {
       const auto* copy = llvm::dyn_cast<llvm::MemIntrinsic>(call);
-      if (only_marks(*call) || calls_named(*call, "__epiline_result") || calls_named(*call, "__epiline_argument") ||
-          calls_named(*call, "__epiline_unwritten") || (copy != nullptr && copy->getRawDest() == &pointer))
-        continue;
+      if (only_marks(*call) || only_passes(*call) || (copy != nullptr && copy->getRawDest() == &pointer)) continue;
       const auto* other = llvm::dyn_cast<llvm::CallInst>(call);
       const bool process =
           other != nullptr && other->getCalledFunction() != nullptr && !other->getCalledFunction()->isDeclaration();
@@ -122,7 +126,7 @@ void check_local(const llvm::Value& variable, const llvm::Value& pointer, const 
 
 }  // namespace
 
-bool is_written_through(const llvm::Argument& pointer) {
+bool is_written_through(const llvm::Value& pointer) {
   pointer_walk walk;
   walk.follow(&pointer);
   return walk.first_write != nullptr;
@@ -172,7 +176,8 @@ std::map<const llvm::Value*, std::size_t> check_objects(const llvm::Function& to
         refuse_shared(place_of(*uses[i]), variable, *calls[writer],
                       fmt::format("the process '{}'", short_name(*calls[i]->getCalledFunction())));
     for (const llvm::Instruction& instruction : llvm::instructions(top))
-      if (&instruction != calls[writer])
+      if (const auto* call = llvm::dyn_cast<llvm::CallBase>(&instruction);
+          &instruction != calls[writer] && (call == nullptr || !only_marks(*call)))
         for (const llvm::Use& operand : instruction.operands())
           if (operand->stripInBoundsConstantOffsets() == &variable)
             refuse_shared(place_of(instruction), variable, *calls[writer], "the top");

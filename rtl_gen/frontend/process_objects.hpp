@@ -10,8 +10,9 @@
 
 namespace epiline::frontend {
 
-/// Whether a function, or what it calls, writes through a pointer that it is given.
-[[nodiscard]] bool is_written_through(const llvm::Argument& pointer);
+/// Whether a function, or what it calls, writes through a pointer: one that it is given, or that to a variable of its
+/// own. That the call of the top passes the variable is no writing.
+[[nodiscard]] bool is_written_through(const llvm::Value& pointer);
 
 /// Looks at every variable that the processes, which are `calls` in `top`, are given by reference or use as a static or
 /// global one; `streams` are the objects that may be shared. Everything is inlined but these calls.

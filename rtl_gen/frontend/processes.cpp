@@ -1,10 +1,11 @@
 #include "frontend/processes.hpp"
 
 #include <fmt/format.h>
-#include <llvm/ADT/PostOrderIterator.h>
 #include <llvm/ADT/StringExtras.h>
+#include <llvm/Analysis/LoopInfo.h>
 #include <llvm/IR/DebugInfo.h>
 #include <llvm/IR/DebugInfoMetadata.h>
+#include <llvm/IR/Dominators.h>
 #include <llvm/IR/InstIterator.h>
 #include <llvm/Transforms/Utils/Cloning.h>
 
@@ -13,11 +14,13 @@
 
 #include "frontend/calls.hpp"
 #include "frontend/checks.hpp"
+#include "frontend/code_processes.hpp"
 #include "frontend/copies.hpp"
 #include "frontend/function_passes.hpp"
 #include "frontend/loops.hpp"
 #include "frontend/pointer_choices.hpp"
 #include "frontend/process_objects.hpp"
+#include "frontend/reference_parameters.hpp"
 #include "frontend/shared_variables.hpp"
 #include "frontend/start_up.hpp"
 
@@ -74,8 +77,8 @@ class splitter {
 
   // ---- what the processes are ---------------------------------------------------------------------------------------
 
-  /// The top and the functions with DATAFLOW it calls, which are as if they were written out in it; false: none has
-  /// DATAFLOW.
+  /// The top and the functions it calls that have DATAFLOW or streams of their own, which are as if they were written
+  /// out in it; false: none does.
   bool find_region() {
     const std::set<const llvm::Function*> reached = reached_from(process_);
     std::set<const llvm::Function*> marked;
@@ -85,15 +88,15 @@ class splitter {
       marked.insert(pragma->getFunction());
       pragmas.push_back(pragma);
     }
-    if (pragmas.empty()) return false;
+    if (pragmas.empty() && !joins_streams(top_function_)) return false;
     check_functions(module_, process_);
-    dataflow_place_ = place_of(*pragmas.front());
+    dataflow_place_ = pragmas.empty() ? result_.top.place : place_of(*pragmas.front());
     region_ = {&top_function_};
     for (std::size_t i = 0; i < region_.size(); ++i)
       for (llvm::Instruction& instruction : llvm::instructions(*region_[i])) {
         llvm::Function* const callee = called_by(instruction);
         if (callee == nullptr || callee->isDeclaration()) continue;
-        if (marked.count(callee) != 0)
+        if (marked.count(callee) != 0 || (takes_streams(*callee) && joins_streams(*callee)))
           add_once(region_, callee);
         else if (takes_streams(*callee))
           add_once(functions_, callee);
@@ -121,6 +124,9 @@ class splitter {
     is_inlined_ = true;
     for (llvm::Function* function : functions_) clean_up(*function);
     clean_up(process_);
+    pass_what_is_read(process_, result_.top);
+    for (llvm::Function* function : outline_accesses(process_, functions_)) functions_.push_back(function);
+    managers_.function.clear();
     find_calls();
     unroll_calls();
     streams_.find(process_);
@@ -137,6 +143,20 @@ class splitter {
   /// What processes give each other beside streams becomes streams.
   void share_variables() {
     shared_ = find_shared_variables(process_, calls_, keep_results(process_, calls_), streams_.objects());
+    const llvm::DominatorTree dominators(process_);
+    const llvm::LoopInfo loops(dominators);
+    // What is given to an earlier call is for its next run, in a loop around the calls; without one it is lost.
+    const auto leads_nowhere = [&](const shared_variable& one) {
+      return one.reader < one.writer && !are_repeated(*calls_[one.reader], *calls_[one.writer], loops);
+    };
+    for (const shared_variable& one : shared_)
+      if (one.is_kept && leads_nowhere(one))
+        refuse(
+            place_of(*calls_[one.writer]),
+            fmt::format("DATAFLOW: what the process '{}' gives is kept in a static variable beside the calls: keep it "
+                        "in a function that takes streams",
+                        short_name(*calls_[one.writer]->getCalledFunction())));
+    std::erase_if(shared_, leads_nowhere);
     for (const shared_variable& one : shared_) {
       std::string name = one.slot->getName().split('.').first.str();
       source_place place = place_of(*calls_[one.writer]);
@@ -144,9 +164,15 @@ class splitter {
         name = record->getVariable()->getName().str();
         place = place_of(*record->getVariable());
       }
-      // What is given to an earlier call is for its next run, in a loop around the calls.
       streams_.add(*one.channel, name, one.reader < one.writer, place);
     }
+  }
+
+  /// Whether a loop of the top is around both. Around every call is the one without an end.
+  static bool are_repeated(const llvm::CallInst& first, const llvm::CallInst& second, const llvm::LoopInfo& loops) {
+    const llvm::Loop* loop = loops.getLoopFor(first.getParent());
+    while (loop != nullptr && (loop->hasNoExitBlocks() || !loop->contains(&second))) loop = loop->getParentLoop();
+    return loop != nullptr;
   }
 
   void clean_up(llvm::Function& function) {
@@ -160,8 +186,7 @@ class splitter {
   /// In the order in which they take place, when each does once.
   void find_calls() {
     calls_.clear();
-    llvm::ReversePostOrderTraversal<llvm::Function*> order(&process_);
-    for (llvm::BasicBlock* block : order)
+    for (llvm::BasicBlock* block : in_order(process_))
       for (llvm::Instruction& instruction : *block)
         if (std::find(functions_.begin(), functions_.end(), called_by(instruction)) != functions_.end() &&
             called_by(instruction) != nullptr)

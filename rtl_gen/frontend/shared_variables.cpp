@@ -40,6 +40,7 @@ class use_search {
   explicit use_search(const std::vector<llvm::CallInst*>& calls) : calls_(calls) {}
 
   std::set<std::size_t> users;
+  bool is_kept = false;  // in a variable that outlives the call
 
   void follow(const llvm::Value& start) {
     pending_.push_back(&start);
@@ -81,8 +82,10 @@ class use_search {
     const llvm::Value* const object = llvm::getUnderlyingObject(&pointer, 0);
     if (llvm::isa<llvm::AllocaInst>(object))
       pending_.push_back(object);
-    else
+    else {
+      is_kept = true;
       every_process();
+    }
   }
 
   void every_process() {
@@ -226,7 +229,7 @@ std::vector<shared_variable> find_shared_variables(llvm::Function& top, const st
             llvm::ConstantInt::get(llvm::Type::getInt8Ty(module.getContext()), 0), "epiline::shared");
         auto* const type = new llvm::GlobalVariable(module, token, false, llvm::GlobalValue::ExternalLinkage, nullptr,
                                                     "epiline::shared_type");
-        shared.push_back({slot, writer, reader, after[writer], channel, type});
+        shared.push_back({slot, writer, reader, after[writer], channel, type, uses.is_kept});
       }
   }
   return shared;

@@ -21,6 +21,7 @@ struct shared_variable {
   llvm::Instruction* after = nullptr;  // the value is there behind it: the writer's call, or the store of its result
   llvm::GlobalVariable* channel = nullptr;  // stands for the stream between them
   llvm::GlobalVariable* type = nullptr;     // of one token: the variable's, or that of an array's elements
+  bool is_kept = false;                     // the top puts it, or what is computed of it, into what outlives the call
 };
 
 /// Gives the integers that calls return to variables, as if they were passed by reference. Returns where the value of

@@ -43,17 +43,21 @@ std::vector<llvm::StringRef> split_parameters(llvm::StringRef list) {
   return parts;
 }
 
-/// `EXPRESSION` of `TYPE NAME[EXPRESSION]`; empty for everything else.
+/// `EXPRESSION` of `TYPE NAME[EXPRESSION]`, with or without further dimensions; empty for everything else.
 std::string array_size(llvm::StringRef parameter) {
   parameter = parameter.rtrim();
-  if (!parameter.ends_with("]")) return "";
+  const auto ends_with_brackets = [&](std::size_t at) {
+    while (at < parameter.size() && parameter[at] == '[')
+      at = parameter.find_first_not_of(" \t\n", closing(parameter, at) + 1);
+    return at == llvm::StringRef::npos || at == parameter.size();
+  };
   std::size_t open = parameter.find('[');
-  while (open != llvm::StringRef::npos && closing(parameter, open) + 1 != parameter.size())
+  while (open != llvm::StringRef::npos && !ends_with_brackets(open))
     open = parameter.find('[', closing(parameter, open));
   if (open == llvm::StringRef::npos) return "";
   const llvm::StringRef before = parameter.take_front(open).rtrim();
   if (before.empty() || !is_of_name(before.back())) return "";
-  return parameter.slice(open + 1, parameter.size() - 1).trim().str();
+  return parameter.slice(open + 1, closing(parameter, open)).trim().str();
 }
 
 std::string without_line_markers(const std::string& preprocessed) {
@@ -110,6 +114,12 @@ std::vector<std::vector<std::string>> sizes_of_array_parameters(const std::strin
 std::map<unsigned, unsigned> stream_arrays(llvm::Module& module) {
   std::map<unsigned, unsigned> arrays;
   for (const llvm::CallInst* call : notes(module, "__epiline_array")) arrays[number(*call, 0)] = number(*call, 1);
+  return arrays;
+}
+
+std::map<unsigned, unsigned> all_arrays(llvm::Module& module) {
+  std::map<unsigned, unsigned> arrays = stream_arrays(module);
+  for (const llvm::CallInst* call : notes(module, "__epiline_values")) arrays[number(*call, 0)] = number(*call, 1);
   return arrays;
 }
 

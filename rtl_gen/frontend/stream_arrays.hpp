@@ -18,6 +18,9 @@ namespace epiline::frontend {
 /// notes it.
 [[nodiscard]] std::map<unsigned, unsigned> stream_arrays(llvm::Module& module);
 
+/// The same of every array, be it of streams or of values.
+[[nodiscard]] std::map<unsigned, unsigned> all_arrays(llvm::Module& module);
+
 /// The position behind the last parameter if the top returns a value; otherwise 0.
 [[nodiscard]] unsigned returned_position(llvm::Module& module);
 

@@ -2,9 +2,14 @@
 
 #include <fmt/format.h>
 #include <llvm/BinaryFormat/Dwarf.h>
+#include <llvm/IR/DebugInfo.h>
+#include <llvm/IR/InstIterator.h>
+#include <llvm/IR/Module.h>
 
 #include <algorithm>
 #include <optional>
+
+#include "frontend/calls.hpp"
 
 namespace epiline::frontend {
 
@@ -47,6 +52,15 @@ bool brings_streams(const llvm::DIType* type) {
   const bool refers = derived != nullptr && (derived->getTag() == llvm::dwarf::DW_TAG_reference_type ||
                                              derived->getTag() == llvm::dwarf::DW_TAG_pointer_type);
   return refers && !streams_in(derived->getBaseType()).empty();
+}
+
+/// Whether a value is a static variable of streams.
+bool is_static_stream(const llvm::Value& value) {
+  const auto* variable = llvm::dyn_cast<llvm::GlobalVariable>(value.stripInBoundsOffsets());
+  if (variable == nullptr || variable->isDeclaration()) return false;
+  llvm::SmallVector<llvm::DIGlobalVariableExpression*, 1> described;
+  variable->getDebugInfo(described);
+  return !described.empty() && !streams_in(described.front()->getVariable()->getType()).empty();
 }
 
 }  // namespace
@@ -94,6 +108,17 @@ bool takes_streams(const llvm::Function& function) {
   const llvm::DITypeRefArray types = program->getType()->getTypeArray();
   for (unsigned i = 1; i < types.size(); ++i)
     if (types[i] != nullptr && !types[i]->isArtificial() && brings_streams(types[i])) return true;
+  return false;
+}
+
+bool joins_streams(const llvm::Function& root) {
+  for (const llvm::Function* function : reached_from(root))
+    for (const llvm::Instruction& instruction : llvm::instructions(*function)) {
+      for (const llvm::DbgVariableRecord& record : llvm::filterDbgVars(instruction.getDbgRecordRange()))
+        if (!record.getVariable()->isParameter() && !streams_in(record.getVariable()->getType()).empty()) return true;
+      for (const llvm::Use& operand : instruction.operands())
+        if (operand->getType()->isPointerTy() && is_static_stream(*operand)) return true;
+    }
   return false;
 }
 

@@ -33,4 +33,7 @@ inline constexpr unsigned most_depth = 1u << 20;
 /// A function that can be a process: one that takes streams and is not one of the streams' own.
 [[nodiscard]] bool takes_streams(const llvm::Function& function);
 
+/// Whether a function, or one that runs when it does, has streams of its own: it joins processes.
+[[nodiscard]] bool joins_streams(const llvm::Function& root);
+
 }  // namespace epiline::frontend

@@ -21,7 +21,7 @@ TEST(stream_arrays, finds_the_sizes_of_the_definition) {
                                         "# 99 \"k.cpp\" 2\n"
                                         "         s& out, int n, s (&r)[2], s matrix[2][3], s open[]) {\n",
                                         "space::top"),
-              ElementsAre("N + (M > 2)", "", "", "", "", ""));
+              ElementsAre("N + (M > 2)", "", "", "", "2", ""));
 }
 
 TEST(stream_arrays, takes_no_other_functions_for_the_top) {

@@ -127,11 +127,20 @@ class slot {
   virtual unsigned width() const = 0;
 };
 
-template <class P, int Index>
-class slot_of : public slot {  // a scalar by value
+/// Calls f for each element of an array, or for the value.
+template <class T, class F>
+void each(T& value, F&& f) {
+  if constexpr (std::is_array_v<T>)
+    for (auto& element : value) f(element);
+  else
+    f(value);
+}
+
+/// A scalar, or an array of them: given to the top or, by reference, a result.
+template <class T, int Index>
+class value_slot : public slot {
  public:
-  using value_type = std::remove_cv_t<std::remove_reference_t<P>>;
-  static constexpr bool is_bit = std::is_same_v<value_type, bool>;
+  static constexpr bool is_bit = std::is_same_v<T, bool>;
   void give(const token& given) override {
     if (is_bit) {
       unsigned position = 0;
@@ -147,27 +156,10 @@ class slot_of : public slot {  // a scalar by value
     members<Index>::visit(value_, random);
     return random.result;
   }
-  unsigned width() const override {
-    unsigned bits = 0;
-    members<Index>::visit(value_, [&](const auto& number) { bits += width_of(&number); });
-    return is_bit ? 1 : bits;
-  }
-  value_type& pass() { return value_; }
-
- private:
-  value_type value_{};
-};
-
-template <class T, int Index>
-class slot_of<const T&, Index> : public slot_of<T, Index> {};
-
-template <class T, int Index>
-class slot_of<T&, Index> : public slot {  // a result
- public:
   std::vector<token> take() override {
     token result;
-    if (std::is_same_v<T, bool>) {
-      result.put(static_cast<std::uint64_t>(static_cast<bool>(is_true())), 1);
+    if (is_bit) {
+      result.put(static_cast<std::uint64_t>(is_true()), 1);
     } else {
       packer pack;
       members<Index>::visit(value_, pack);
@@ -178,9 +170,11 @@ class slot_of<T&, Index> : public slot {  // a result
   unsigned width() const override {
     unsigned bits = 0;
     members<Index>::visit(value_, [&](const auto& number) { bits += width_of(&number); });
-    return std::is_same_v<T, bool> ? 1 : bits;
+    return is_bit ? 1 : bits;
   }
-  T& pass() { return value_; }
+
+ protected:
+  T value_{};
 
  private:
   bool is_true() const {
@@ -188,7 +182,22 @@ class slot_of<T&, Index> : public slot {  // a result
     std::memcpy(&byte, &value_, 1);
     return byte != 0;
   }
-  T value_{};
+};
+
+template <class P, int Index>
+class slot_of : public value_slot<std::remove_const_t<std::remove_reference_t<P>>, Index> {
+ public:
+  auto& pass() { return this->value_; }
+};
+template <class T, int Index>
+class slot_of<T*, Index> : public value_slot<std::remove_const_t<T>, Index> {
+ public:
+  auto* pass() { return &this->value_; }
+};
+template <class T, std::size_t Size, int Index>
+class slot_of<const T (&)[Size], Index> : public value_slot<T[Size], Index> {
+ public:
+  const T (&pass() const)[Size] { return this->value_; }
 };
 
 template <class T, int Depth, int Index>
@@ -554,10 +563,10 @@ template <auto Top, class Counts, class Result, class... P, int... Position>
       positions, std::move(parameters), argc, argv);
 }
 
-/// `Counts`: of the streams in each parameter that is an array of them, or 0.
+/// `Counts`: of the elements of each parameter that is written as an array, or 0.
 template <auto Top, int... Counts, class Result, class... P>
 [[noreturn]] void drive(Result (*)(P...), std::vector<parameter> parameters, int argc, char** argv) {
-  drive_written<Top, hls::detail::stream_counts<Counts...>, Result, P...>(
+  drive_written<Top, hls::detail::element_counts<Counts...>, Result, P...>(
       std::make_integer_sequence<int, sizeof...(P)>(), std::move(parameters), argc, argv);
 }
 

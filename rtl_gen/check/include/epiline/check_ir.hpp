@@ -65,6 +65,9 @@ class source_run {
     call_ = next(static_cast<unsigned>(call_port_));
   }
   void bind(int number, const void* stream) { ports_[stream] = parameters_[static_cast<std::size_t>(number)].port; }
+  [[nodiscard]] bool is_argument(int number) const {
+    return static_cast<int>(parameters_[static_cast<std::size_t>(number)].port) == call_port_;
+  }
   token argument(int number, unsigned width) {
     return part_of(call_, parameters_[static_cast<std::size_t>(number)].offset, width);
   }
@@ -248,11 +251,16 @@ inline __attribute__((used)) void epiline_check_argument(int parameter, std::uin
   epiline::check::source_run::current()->parameter_comes(parameter);
   epiline::check::fill(words, epiline::check::source_run::current()->argument(parameter, width), width);
 }
-inline __attribute__((used)) void epiline_check_result_begins(int parameter) {
-  epiline::check::source_run::current()->parameter_comes(parameter);
+/// What the top may write or only read: 0 or what it is given.
+inline __attribute__((used)) void epiline_check_unwritten(int parameter, std::uint64_t* words, unsigned width) {
+  epiline::check::source_run& run = *epiline::check::source_run::current();
+  run.parameter_comes(parameter);
+  epiline::check::fill(words, run.is_argument(parameter) ? run.argument(parameter, width) : epiline::check::token{},
+                       width);
 }
 inline __attribute__((used)) void epiline_check_result(int parameter, const std::uint64_t* words, unsigned width) {
-  epiline::check::source_run::current()->result(parameter, epiline::check::token_of(words, width));
+  epiline::check::source_run& run = *epiline::check::source_run::current();
+  if (!run.is_argument(parameter)) run.result(parameter, epiline::check::token_of(words, width));
 }
 inline __attribute__((used)) void epiline_check_read(const void* stream, std::uint64_t* words, unsigned width) {
   epiline::check::fill(words, epiline::check::source_run::current()->read(stream), width);

@@ -4,7 +4,9 @@
 //
 // The parameters become ports by their types: a stream by reference is a port of its own; scalars by value (or const
 // reference) are the fields of one argument token a call; scalars by reference, and what the top returns, are output
-// streams of one token a call. An array of streams counts as that many parameters, and so does what is returned.
+// streams of one token a call. A pointer to one scalar and a short array of them are references; those that the top
+// only reads are arguments, as the frontend finds out. An array of streams counts as that many parameters, and so does
+// what is returned.
 
 #include <ap_int.h>
 #include <detail/stream_arrays.h>
@@ -17,6 +19,8 @@ void __epiline_port(int index, const void* stream) noexcept;
 void __epiline_unwritten(int index, void* value, const void* type) noexcept;
 void __epiline_unsupported_parameter(int index, int reason) noexcept;
 void __epiline_array(int position, int count) noexcept;
+void __epiline_values(int position, int count) noexcept;
+void __epiline_single(int index, const void* value, long size) noexcept;
 void __epiline_returned(int position) noexcept;
 }
 
@@ -121,12 +125,73 @@ struct unsupported_parameter {
   unsupported_parameter() { __epiline_unsupported_parameter(Index, static_cast<int>(Reason)); }
 };
 
+template <class T>
+inline constexpr bool is_stream = false;
+template <class T, int Depth>
+inline constexpr bool is_stream<hls::stream<T, Depth>> = true;
+
+template <class P, int Index>
+struct single_value : parameter<P, Index> {  // behind a pointer
+  single_value() { __epiline_single(Index, &this->value, sizeof(this->value)); }
+};
+
 template <class T, int Index>
-struct parameter<T*, Index> : unsupported_parameter<Index, reason::pointer> {};
+constexpr auto pointer_parameter() {
+  if constexpr (std::is_void_v<T> || std::is_function_v<T> || std::is_pointer_v<T> || std::is_array_v<T> ||
+                is_stream<T>)
+    return static_cast<unsupported_parameter<Index, reason::pointer>*>(nullptr);
+  else
+    return static_cast<single_value<T&, Index>*>(nullptr);
+}
+
+template <class T, int Index>
+struct parameter<T*, Index> : std::remove_pointer_t<decltype(pointer_parameter<T, Index>())> {
+  auto* pass() { return &this->value; }
+};
+// A pointer in memory is a byte, of which the value takes a bit.
+template <int Index>
+struct parameter<const bool*, Index> : unsupported_parameter<Index, reason::pointer> {};
+
+/// More than this is data, which comes and goes word by word.
+inline constexpr unsigned long most_array_bytes = 128;
+
+// The payload that an array is.
+template <class T, unsigned long Size>
+struct array_token {
+  T values[Size];
+};
+
 template <class T, unsigned long Size, int Index>
-struct parameter<T (&)[Size], Index> : unsupported_parameter<Index, reason::array> {};
+struct array_result {
+  T values[Size];
+  array_result() { __epiline_unwritten(Index, &values, &parameter_type_tag<array_token<T, Size>>::object); }
+  T (&pass())[Size] { return values; }
+  void finish() const { __epiline_result(Index, &values, &parameter_type_tag<array_token<T, Size>>::object); }
+};
+
 template <class T, unsigned long Size, int Index>
-struct parameter<const T (&)[Size], Index> : unsupported_parameter<Index, reason::array> {};
+struct array_argument {
+  T values[Size];
+  array_argument() { __epiline_argument(Index, &values, &parameter_type_tag<array_token<T, Size>>::object); }
+  const T (&pass() const)[Size] { return values; }
+  void finish() const {}
+};
+
+template <template <class, unsigned long, int> class Kind, class T, unsigned long Size, int Index>
+constexpr auto array_parameter() {
+  using element = std::remove_all_extents_t<T>;
+  if constexpr (sizeof(T[Size]) > most_array_bytes || std::is_pointer_v<element> || is_stream<element>)
+    return static_cast<unsupported_parameter<Index, reason::array>*>(nullptr);
+  else
+    return static_cast<Kind<T, Size, Index>*>(nullptr);
+}
+
+template <class T, unsigned long Size, int Index>
+struct parameter<T (&)[Size], Index>
+    : std::remove_pointer_t<decltype(array_parameter<array_result, T, Size, Index>())> {};
+template <class T, unsigned long Size, int Index>
+struct parameter<const T (&)[Size], Index>
+    : std::remove_pointer_t<decltype(array_parameter<array_argument, T, Size, Index>())> {};
 template <class T, int Depth, int Index>
 struct parameter<hls::stream<T, Depth>, Index> : unsupported_parameter<Index, reason::stream_by_value> {};
 template <class T, int Depth, int Index>
@@ -156,7 +221,11 @@ constexpr int index_of(int position) {
 
 template <class P, int Position>
 void note_array() {
-  if constexpr (streams_in_array<P> != 0) __epiline_array(Position, streams_in_array<P>);
+  using array = std::remove_reference_t<P>;
+  if constexpr (streams_in_array<P> != 0)
+    __epiline_array(Position, streams_in_array<P>);
+  else if constexpr (std::is_array_v<array>)
+    __epiline_values(Position, std::extent_v<array>);
 }
 
 template <auto Top, class Result, int ResultIndex, class... Parameters>
@@ -186,11 +255,11 @@ void call_written(Result (*)(P...), std::integer_sequence<int, Position...> posi
   for (;;) call_once<Top>(top, positions);
 }
 
-/// `Counts`: of the streams in each parameter written as an array, or 0.
+/// `Counts`: of the elements of each parameter written as an array, or 0.
 template <auto Top, int... Counts, class Result, class... P>
 void call_for_ever(Result (*top)(P...)) {
   static_assert(!std::is_pointer_v<Result> && !std::is_reference_v<Result>, "the top returns a pointer");
-  call_written<Top, hls::detail::stream_counts<Counts...>>(top, std::make_integer_sequence<int, sizeof...(P)>());
+  call_written<Top, hls::detail::element_counts<Counts...>>(top, std::make_integer_sequence<int, sizeof...(P)>());
 }
 
 }  // namespace epiline::detail
