@@ -169,14 +169,13 @@ class ap_fixed_base {
   constexpr unsigned long to_ulong() const { return static_cast<unsigned long>(*this); }
   constexpr long long to_int64() const { return static_cast<long long>(*this); }
   constexpr unsigned long long to_uint64() const { return static_cast<unsigned long long>(*this); }
-#ifndef __SYNTHESIS__
-  double to_double() const { return std::ldexp(V.to_double(), -fraction); }
+  // Of constants, in hardware.
+  double to_double() const { return __builtin_ldexp(V.to_double(), -fraction); }
   float to_float() const { return static_cast<float>(to_double()); }
   template <class T, std::enable_if_t<std::is_floating_point_v<T>, int> = 0>
   operator T() const {
     return static_cast<T>(to_double());
   }
-#endif
 
   static constexpr int length() { return W; }
   constexpr bool is_neg() const { return V.sign(); }

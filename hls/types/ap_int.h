@@ -23,8 +23,14 @@
 //
 // With __SYNTHESIS__ values are thin over clang's _BitInt; natively over the smallest built-in integer.
 
+// The C library's as well: sources that were written for the vendors' header count on it.
+#include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -32,9 +38,8 @@
 #ifdef __SYNTHESIS__
 #include "detail/integer_synthesis.h"
 #else
-#include <cmath>
-#include <istream>
-#include <ostream>
+#include <iostream>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -185,14 +190,16 @@ class ap_int_base : public detail::bool_conversion<ap_int_base<W, S>, (W > 64)> 
   }
   constexpr raw to_raw() const { return stored_.load(); }
 
-#ifndef __SYNTHESIS__
+  // Of constants, in hardware: text and floating point.
+
   /// Truncates toward zero, then keeps the low W bits. Throws std::invalid_argument for NaN and infinities.
   template <class T, std::enable_if_t<std::is_floating_point_v<T>, int> = 0>
-  ap_int_base(T v) : ap_int_base(from_floating(static_cast<long double>(v))) {}
+  ap_int_base(T v) : ap_int_base(from_floating(v)) {}
 
   /// Reads "[+-][0x|0o|0b]digits"; radix 2, 8, 10 or 16, or 0 to take it from the prefix (none: decimal). The value is
   /// kept modulo 2^W. Throws std::invalid_argument if there is no digit or a character that is none.
   ap_int_base(const char* text, int radix = 0) : ap_int_base(from_string(text, radix)) {}
+#ifndef __SYNTHESIS__
   explicit ap_int_base(const std::string& text, int radix = 0) : ap_int_base(text.c_str(), radix) {}
 #endif
 
@@ -325,9 +332,10 @@ class ap_int_base : public detail::bool_conversion<ap_int_base<W, S>, (W > 64)> 
   /// With `sign` a negative value is "-" and its magnitude; otherwise the W-bit pattern is written as unsigned. Radix 2
   /// always shows the pattern.
   std::string to_string(int radix = 2, bool sign = S) const;
+#endif
+  /// Of constants, in hardware.
   double to_double() const;
   float to_float() const { return static_cast<float>(to_double()); }
-#endif
 
  private:
   template <int, bool>
@@ -372,10 +380,9 @@ class ap_int_base : public detail::bool_conversion<ap_int_base<W, S>, (W > 64)> 
     }
   }
 
-#ifndef __SYNTHESIS__
-  static ap_int_base from_floating(long double v);
+  template <class T>
+  static ap_int_base from_floating(T v);
   static ap_int_base from_string(const char* text, int radix);
-#endif
 
   backend::storage<W, S> stored_;
 };
@@ -807,6 +814,7 @@ EPILINE_AP_OPERATOR(detail::are_operands, >=, !detail::less(detail::value_of(a),
 
 }  // namespace epiline::ap
 
+#include "detail/conversions.h"
 #ifndef __SYNTHESIS__
 #include "detail/text_native.h"
 #endif

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "frontend/host_mathematics.hpp"
 #include "frontend/source.hpp"
 
 namespace epiline::frontend {
@@ -82,7 +83,8 @@ void check_call(const llvm::CallBase& call) {
   if (is_heap(name))
     refuse(place_of(call),
            fmt::format("heap memory ('{}'): hardware has none: use arrays of constant size", readable_name(*callee)));
-  if (call.doesNotReturn()) return;  // abort, a failed assertion: such a path is never taken
+  if (is_host_mathematics(name)) return;  // of constants, when loops are unrolled: see compute_mathematics()
+  if (call.doesNotReturn()) return;       // abort, a failed assertion: such a path is never taken
   refuse(place_of(call), fmt::format("call of '{}', which has no definition in this source: define it, or keep it "
                                      "out of the synthesis build with #ifndef __SYNTHESIS__",
                                      readable_name(*callee)));
@@ -179,6 +181,17 @@ void check_endless_loops(const llvm::LoopInfo& loops) {
     refuse(place_of(*loop),
            "endless loop without stream access: it can never give a result; bound it or access a stream in it");
   }
+}
+
+bool is_no_number(const llvm::CallInst& call) {
+  return call.getCalledFunction() != nullptr && call.getCalledFunction()->getName() == "__epiline_no_number";
+}
+
+void refuse_no_numbers(const llvm::Function& process) {
+  for (const llvm::Instruction& instruction : llvm::instructions(process))
+    if (const auto* call = llvm::dyn_cast<llvm::CallInst>(&instruction); call != nullptr && is_no_number(*call))
+      refuse(place_of(instruction),
+             "text or floating point that is no number, or is known only at run time: give a constant number");
 }
 
 int pragma_number(const llvm::CallInst& call, unsigned argument, int least) {

@@ -20,6 +20,12 @@ void check_operations(const llvm::Function& process);
 /// Loops that neither end nor access a stream. Before code behind them is removed, or that would be blamed.
 void check_endless_loops(const llvm::LoopInfo& loops);
 
+/// Whether a call says that text or floating point is no number.
+[[nodiscard]] bool is_no_number(const llvm::CallInst& call);
+
+/// Such calls that may happen, when everything known is computed.
+void refuse_no_numbers(const llvm::Function& process);
+
 /// Variables whose value only running code could tell, where the process uses them.
 void check_initial_values(const std::set<const llvm::GlobalVariable*>& unknown, const llvm::Function& process);
 

@@ -20,6 +20,7 @@
 #include "frontend/aggregates.hpp"
 #include "frontend/checks.hpp"
 #include "frontend/copies.hpp"
+#include "frontend/fill_tables.hpp"
 #include "frontend/function_passes.hpp"
 #include "frontend/loops.hpp"
 #include "frontend/payload.hpp"
@@ -325,9 +326,10 @@ class port_lowering {
       unpack_token(builder, token, call.getArgOperand(1), type, leaves);
       finished_.push_back(&call);
     } else if (name_of(call) == "__epiline_stream_empty" || name_of(call) == "__epiline_stream_full") {
-      refuse(place_of(call),
-             "empty(), full() and non-blocking access of a stream make results depend on timing: use blocking reads "
-             "and writes");
+      refuse(
+          place_of(call),
+          "empty(), full() and non-blocking access of a stream make results depend on timing: read() and write() wait "
+          "by themselves, so leave 'if (!in.empty())' away, and end a loop by a count or by a mark in the tokens");
     }
   }
 
@@ -367,20 +369,9 @@ void cut_after_noreturn(llvm::Function& process) {
   std::vector<llvm::CallInst*> ends;
   for (llvm::Instruction& instruction : llvm::instructions(process))
     if (auto* call = llvm::dyn_cast<llvm::CallInst>(&instruction);
-        call != nullptr && call->doesNotReturn() && !llvm::isa<llvm::IntrinsicInst>(call))
+        call != nullptr && call->doesNotReturn() && !llvm::isa<llvm::IntrinsicInst>(call) && !is_no_number(*call))
       ends.push_back(call);
   for (llvm::CallInst* call : ends) call->eraseFromParent();
-}
-
-/// Makes straight code of a function that is to be run here.
-void prepare_start_up(llvm::Function& function, analysis_managers& managers) {
-  if (function.isDeclaration()) return;
-  run_passes(function, managers, early_cleanup());
-  rotate_loops(function, managers.function);
-  managers.function.invalidate(function, llvm::PreservedAnalyses::none());
-  unroll_loops(function, managers.function, true);
-  managers.function.invalidate(function, llvm::PreservedAnalyses::none());
-  run_passes(function, managers, early_cleanup());
 }
 
 }  // namespace
@@ -395,12 +386,8 @@ lowered_process lower(process_source& source) {
 
   result.top_place = source.top.place;
   check_functions(module, process);
-  std::vector<llvm::Function*> roots = start_up_functions(module);
-  const std::vector<llvm::Function*> start_up = roots;
-  roots.push_back(&process);
-  inline_everything(module, roots, managers);
-  for (llvm::Function* start : start_up) prepare_start_up(*start, managers);
-  const std::set<const llvm::GlobalVariable*> unknown = run_start_up_code(module, start_up);
+  const std::set<const llvm::GlobalVariable*> unknown = run_start_up_code(module);
+  inline_everything(module, {&process}, managers);
   check_initial_values(unknown, process);
   for (llvm::Function& function : module)
     if (&function != &process && !function.isDeclaration()) function.deleteBody();
@@ -411,6 +398,7 @@ lowered_process lower(process_source& source) {
   expand_copies(process, unknown_types::kept);
   resolve_pointer_choices(process);
   run_passes(process, managers, early_cleanup());
+  fill_tables(process, managers);
   check_operations(process);
   check_endless_loops(managers.function.getResult<llvm::LoopAnalysis>(process));
   cut_after_noreturn(process);
@@ -423,6 +411,7 @@ lowered_process lower(process_source& source) {
   managers.function.invalidate(process, llvm::PreservedAnalyses::none());
   result.initiation_interval = unroll_loops(process, managers.function);
   managers.function.invalidate(process, llvm::PreservedAnalyses::none());
+  compute_mathematics(process, managers);
   expand_copies(process, unknown_types::refused);
   {
     llvm::FunctionPassManager passes;
@@ -431,6 +420,7 @@ lowered_process lower(process_source& source) {
     passes.addPass(llvm::SimplifyCFGPass(plain_control_flow()));
     run_passes(process, managers, std::move(passes));
   }
+  refuse_no_numbers(process);
   resolve_pointer_choices(process);
   split_aggregates(result);
   managers.function.invalidate(process, llvm::PreservedAnalyses::none());

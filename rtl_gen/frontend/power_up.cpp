@@ -34,7 +34,7 @@ llvm::SmallVector<llvm::Constant*> operands_at_power_up(llvm::Instruction& at) {
 
 llvm::Constant* fold_constants(const llvm::Instruction& at, llvm::ArrayRef<llvm::Constant*> operands) {
   const llvm::DataLayout& layout = at.getModule()->getDataLayout();
-  if (const auto* comparison = llvm::dyn_cast<llvm::ICmpInst>(&at))
+  if (const auto* comparison = llvm::dyn_cast<llvm::CmpInst>(&at))
     return llvm::ConstantFoldCompareInstOperands(comparison->getPredicate(), operands[0], operands[1], layout);
   return llvm::ConstantFoldInstOperands(const_cast<llvm::Instruction*>(&at), operands, layout);
 }

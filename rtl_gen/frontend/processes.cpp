@@ -16,6 +16,7 @@
 #include "frontend/checks.hpp"
 #include "frontend/code_processes.hpp"
 #include "frontend/copies.hpp"
+#include "frontend/fill_tables.hpp"
 #include "frontend/function_passes.hpp"
 #include "frontend/loops.hpp"
 #include "frontend/pointer_choices.hpp"
@@ -124,6 +125,8 @@ class splitter {
     is_inlined_ = true;
     for (llvm::Function* function : functions_) clean_up(*function);
     clean_up(process_);
+    // A table that more than one process has is no variable that they share.
+    run_first_calls(module_);
     pass_what_is_read(process_, result_.top);
     for (llvm::Function* function : outline_accesses(process_, functions_)) functions_.push_back(function);
     managers_.function.clear();
@@ -305,6 +308,7 @@ class splitter {
 }  // namespace
 
 split_top split_into_processes(compiled_source& source, const source_options& options) {
+  narrow_guards(*source.module);
   return splitter(source, options).run();
 }
 
