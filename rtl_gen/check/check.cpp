@@ -325,10 +325,7 @@ struct checker::state {
                                                .sees_fifos = level != "netlist"},
                                               network, at_clocks);
     // Of a random schedule other words wait for each other.
-    if (level.starts_with("rtl-")) {
-      peak_fills.resize(found.peak_fills.size());
-      for (std::size_t i = 0; i < peak_fills.size(); ++i) peak_fills[i] = std::max(peak_fills[i], found.peak_fills[i]);
-    }
+    if (level.starts_with("rtl-")) raise_peaks(peak_fills, found.peak_fills);
     if (found.problem.empty())
       table.equal(level, fmt::format("{} clocks, and with random pauses", found.clocks));
     else

@@ -74,6 +74,11 @@ std::vector<std::string> build(const simulation_request& request, const std::str
 
 }  // namespace
 
+void raise_peaks(std::vector<std::uint64_t>& peaks, const std::vector<std::uint64_t>& others) {
+  peaks.resize(others.size());
+  for (std::size_t i = 0; i < others.size(); ++i) peaks[i] = std::max(peaks[i], others[i]);
+}
+
 std::string missing_for(simulator which) {
   if (which == simulator::verilator) return missing_program("verilator", "verilator");
   return missing_program("iverilog", "iverilog");
@@ -100,9 +105,7 @@ simulation_verdict simulate(const simulation_request& request, const dataflow::n
         throw std::runtime_error("the simulation failed: " + what_went_wrong(request.folder / log));
       const bench_answer answer = read_bench_answer(request.folder / out, n);
       if (pattern == 0) verdict.clocks = answer.clocks;
-      verdict.peak_fills.resize(answer.peak_fills.size());
-      for (std::size_t i = 0; i < answer.peak_fills.size(); ++i)
-        verdict.peak_fills[i] = std::max(verdict.peak_fills[i], answer.peak_fills[i]);
+      raise_peaks(verdict.peak_fills, answer.peak_fills);
       verdict.problem = answer.problem;
       if (verdict.problem.empty()) {
         verdict.where = compare(n, wanted, answer.outputs);

@@ -32,6 +32,9 @@ struct simulation_verdict {
   std::vector<std::uint64_t> peak_fills;
 };
 
+/// Of each FIFO the larger of two peak fills; `peaks` may be empty.
+void raise_peaks(std::vector<std::uint64_t>& peaks, const std::vector<std::uint64_t>& others);
+
 /// Whether the simulator's programs are installed: empty, or what is missing and its Debian package.
 [[nodiscard]] std::string missing_for(simulator which);
 
