@@ -19,6 +19,7 @@
 #include <set>
 #include <vector>
 
+#include "frontend/calls.hpp"
 #include "frontend/compile_time.hpp"
 #include "frontend/host_mathematics.hpp"
 #include "frontend/power_up.hpp"
@@ -34,9 +35,8 @@ using blocks = std::set<const llvm::BasicBlock*>;
 constexpr std::uint64_t most_steps_of_a_number = 300'000;
 
 bool is_mathematics(const llvm::Instruction& at) {
-  const auto* call = llvm::dyn_cast<llvm::CallInst>(&at);
-  return call != nullptr && call->getCalledFunction() != nullptr && call->getCalledFunction()->isDeclaration() &&
-         is_host_mathematics(call->getCalledFunction()->getName());
+  const llvm::Function* const callee = called_by(at);
+  return callee != nullptr && callee->isDeclaration() && is_host_mathematics(callee->getName());
 }
 
 /// Whether nothing could be made of an instruction but its result.
@@ -73,14 +73,13 @@ void find_uses(const llvm::Value& address, uses_of_variable& result) {
     } else if (llvm::isa<llvm::MemSetInst>(at)) {
       result.writes.push_back(at);
     } else {
-      const auto* call = llvm::dyn_cast<llvm::CallInst>(at);
-      const llvm::StringRef callee =
-          call == nullptr || call->getCalledFunction() == nullptr ? "" : call->getCalledFunction()->getName();
+      const llvm::Function* const called = called_by(*at);
+      const llvm::StringRef callee = called == nullptr ? "" : called->getName();
       if (callee == "__epiline_stream_write" || callee == "__epiline_result")
         result.reads.push_back(at);
-      else if (!callee.starts_with("__epiline_pragma_") && !at->isLifetimeStartOrEnd() &&
+      else if (!calls_named(*at, "__epiline_pragma_") && !at->isLifetimeStartOrEnd() &&
                !llvm::isa<llvm::DbgInfoIntrinsic>(at) &&
-               (call == nullptr || call->getIntrinsicID() != llvm::Intrinsic::invariant_start))
+               (called == nullptr || called->getIntrinsicID() != llvm::Intrinsic::invariant_start))
         result.is_clear = false;
     }
   }
