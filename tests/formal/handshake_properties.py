@@ -139,14 +139,16 @@ OFFER = """
   end
 """
 
-# Stages are empty when the pipeline comes out of a reset: so many clocks does it wait.
+# Stages are empty when the pipeline comes out of a reset: so many clocks does it wait. After an issue it waits until the
+# interval is over: `waits` says which stage holds the iteration that it waits for.
 CONTROL = """
   wire [{stages}:1] formal_stages = valid;
   always @* if (formal_started) begin
     if (may_issue) assert (!holding);
     if (resetting) assert (holding && hold >= 4 && hold <= {hold});
-    if (holding && !resetting) assert (formal_stages == 0 && hold != 0 && hold < 4);
+    if (holding && !resetting) assert ((formal_stages == 0 && hold != 0 && hold < 4){waits});
 {drained}
+{apart}
   end
 """
 
@@ -163,13 +165,17 @@ def with_fifo_properties(verilog):
 
 
 def with_handshake_properties(verilog, module):
-    """Properties of every stream of a module that issues an iteration a clock, and how many there are of inputs, outputs."""
+    """Properties of the issue and of every stream of a module, and how many there are of inputs and outputs."""
     text = RESET
     hold = int(re.search(r"      hold <= \d+'d(\d+);", verilog)[1])
     stages = int(re.search(r"reg \[(\d+):1\] valid\b", verilog)[1])
     drained = "\n".join(f"    if (resetting && hold + {stage} <= {hold}) assert (!formal_stages[{stage}]);"
                         for stage in range(1, stages + 1))
-    text += CONTROL.format(stages=stages, hold=hold, drained=drained)
+    interval = int(re.search(r"one iteration every (?:(\d+) )?clocks?;", verilog)[1] or 1)
+    waits = "".join(f" || (hold == {interval - stage} && formal_stages[{stage}])" for stage in range(1, interval))
+    apart = "\n".join(f"    if (formal_stages[{stage}] && !resetting) assert (!fire && holding && hold == {interval - stage});"
+                      for stage in range(1, interval))
+    text += CONTROL.format(stages=stages, hold=hold, drained=drained, waits=waits, apart=apart)
     outputs = re.findall(r"wire (\w+)_load = ", verilog)
     buffers = re.findall(r"reg \w+_fills_second, (\w+)_reads_second;", verilog)
     inputs = [name for name in buffers if name.removesuffix("_end") not in outputs]

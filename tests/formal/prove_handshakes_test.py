@@ -15,10 +15,11 @@ import unittest
 from handshake_properties import prove, with_fifo_properties, with_handshake_properties
 
 compiler = pathlib.Path(sys.argv.pop(1)).resolve()
-kernels = pathlib.Path(__file__).resolve().parents[1] / "compiler/kernels"
+here = pathlib.Path(__file__).resolve().parent
+kernels = here.parent / "compiler/kernels"
 
-# An iteration a clock; the last one reads and writes in some iterations only.
-modules = ["prefix_sum", "moving_average", "bit_reversal"]
+# An iteration a clock, of bit_reversal one that reads and writes in some iterations only; an iteration every other clock.
+modules = ["prefix_sum", "moving_average", "bit_reversal", "multiply_and_keep"]
 
 # Faults, each as (what it is, regular expression, what takes its place).
 fifo_faults = [
@@ -55,6 +56,13 @@ module_faults = [
     ("output: a word at another place", r"m_fifo\[m_in\[3:0\]\] <= m_data", "m_fifo[~m_in[3:0]] <= m_data"),
     ("issue while a reset drains the pipeline", r"      holding <= 1'b1;", "      holding <= 1'b0;"),
 ]
+interval_faults = [
+    ("issue in the next clock", r"holding_next = fire \| ", "holding_next = "),
+    ("issue a clock later", r"hold <= fire \? 4'd1", "hold <= fire ? 4'd2"),
+    ("no end of the wait", r"hold <= fire \? 4'd1", "hold <= fire ? 4'd0"),
+    ("an iteration without its token", r"    & in_there;", "    ;"),
+    ("room lost where nothing is written", r"out_skipped <= valid\[1\] & ~\(.*\);", "out_skipped <= 1'b0;"),
+]
 
 
 class handshakes(unittest.TestCase):
@@ -64,8 +72,8 @@ class handshakes(unittest.TestCase):
         cls.addClassCleanup(place.cleanup)
         cls.verilog = {}
         for name in [*modules, "dataflow_gain"]:
-            subprocess.run([compiler, kernels / f"{name}.cpp", "--top", name, "-o", place.name, "--quiet"], check=True,
-                           capture_output=True)
+            source = next(path for folder in (kernels, here / "modules") if (path := folder / f"{name}.cpp").exists())
+            subprocess.run([compiler, source, "--top", name, "-o", place.name, "--quiet"], check=True, capture_output=True)
             cls.verilog[name] = (pathlib.Path(place.name) / f"{name}.v").read_text(encoding="utf-8")
 
     def with_fault(self, name, pattern, replacement):
@@ -101,11 +109,12 @@ class handshakes(unittest.TestCase):
                 self.assertEqual(verdict, "proved", output[-3000:])
 
     def test_a_faulty_module_does_not(self):
-        for fault, pattern, replacement in module_faults:
-            with self.subTest(fault):
-                verilog = self.with_fault("prefix_sum", pattern, replacement)
-                verdict, output = prove(with_handshake_properties(verilog, "prefix_sum")[0], "prefix_sum", cut="*_data")
-                self.assertIn(verdict, ("refuted", "not inductive"), output[-3000:])
+        for name, faults in (("prefix_sum", module_faults), ("multiply_and_keep", interval_faults)):
+            for fault, pattern, replacement in faults:
+                with self.subTest(name, fault=fault):
+                    verilog = self.with_fault(name, pattern, replacement)
+                    verdict, output = prove(with_handshake_properties(verilog, name)[0], name, cut="*_data")
+                    self.assertIn(verdict, ("refuted", "not inductive"), output[-3000:])
 
 
 if __name__ == "__main__":
