@@ -180,7 +180,8 @@ function(epiline_add_netlist_model target)
     OUTPUT ${netlist} ${folder}/resources.json
     COMMAND ${root}/scripts/synthesize.sh ${arg_VERILOG} ${arg_TOP} -o ${folder} --target ${arg_TARGET}
     DEPENDS ${arg_VERILOG} ${arg_DEPENDS} ${root}/scripts/synthesize.sh
-            ${root}/scripts/ecp5_operators.v ${root}/scripts/ecp5_copies.v ${root}/scripts/ice40_copies.v
+            ${root}/scripts/adders.v ${root}/scripts/ecp5_operators.v
+            ${root}/scripts/ecp5_copies.v ${root}/scripts/ice40_copies.v
             ${root}/scripts/ram_output_registers.py ${root}/scripts/carry_chains.py
             ${root}/scripts/netlist_file.py ${root}/scripts/netlist_resources.py
     COMMENT "Synthesizing ${arg_TOP} of ${target}"

@@ -75,6 +75,9 @@ if [ "$target" = ecp5 ] && grep -q '^module epiline_add_or_subtract' "${sources[
     hierarchy -top $top
     techmap -map \"$PWD/scripts/ecp5_operators.v\""
 fi
+# With their final widths, and before Yosys looks for sums of three operands.
+adders="proc; flatten; opt -nodffe -nosdff; wreduce; peepopt; opt_clean
+  techmap -map \"$PWD/scripts/adders.v\""
 # Copies of flip-flops stay black boxes to the end: Yosys would make one of them.
 copies='' map_copies=''
 if grep -q '^module epiline_copy' "${sources[@]}"; then
@@ -86,7 +89,9 @@ if ! (cd "$folder" && "$yosys" -Q -T -q -l yosys.log -p "
   $read_sources
   $copies
   $operators
-  $synthesis -run begin:map_ram
+  $synthesis -run begin:coarse
+  $adders
+  $synthesis -run coarse:map_ram
   tee -o early_check.txt check
   select -assert-none t:\$_DLATCH* t:\$dlatch %u
   tee -o memories.txt dump t:\$mem_v2
