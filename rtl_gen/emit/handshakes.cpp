@@ -126,9 +126,17 @@ void write_output(module_text& m, const dataflow::port& port, const std::string&
   m.line("  wire {}{}_data = {};", range_of(port.width), name, data);
   // The iteration issued in this clock is not counted yet.
   m.line("  assign {}_room = {}_credits_next > {};", name, name, literal(counter, 1));
-  m.line("  wire [{}:0] {}_credits_next = {}_credits - {{{}, valid[1]}} + {{{}, {}_left}}{};", counter - 1, name, name,
-         literal(counter - 1, 0), literal(counter - 1, 0), name,
-         always ? "" : fmt::format(" + {{{}, {}_skipped}}", literal(counter - 1, 0), name));
+  // One place is taken and up to two come back: -1 to 2 places more, a gate a bit, so that one carry chain is enough.
+  if (always) {
+    m.line("  wire {0}_fewer = valid[1] & ~{0}_left;", name);
+    m.line("  wire [{1}:0] {0}_change = {{{{{1}{{{0}_fewer}}}}, valid[1] ^ {0}_left}};", name, counter - 1);
+  } else {
+    m.line("  wire {0}_fewer = valid[1] & ~{0}_left & ~{0}_skipped;", name);
+    m.line("  wire [{1}:0] {0}_change = {{{{{2}{{{0}_fewer}}}}, {0}_fewer | (~valid[1] & {0}_left & {0}_skipped),",
+           name, counter - 1, counter - 2);
+    m.line("    valid[1] ^ {0}_left ^ {0}_skipped}};", name);
+  }
+  m.line("  wire [{1}:0] {0}_credits_next = {0}_credits + {0}_change;", name, counter - 1);
   m.line("  always @(posedge clk) begin");
   m.line("    if ({}_push) {}_fifo[{}_in[{}:0]] <= {}_data;", name, name, name, pointer - 1, name);
   m.line("    if ({}_load) {}_word <= {}_fifo[{}_out[{}:0]];", name, name, name, name, pointer - 1);

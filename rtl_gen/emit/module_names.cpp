@@ -140,8 +140,10 @@ std::string module_names::fresh(std::string_view wanted) {
 std::string module_names::fresh_port(const std::string& wanted, bool axi_lite) {
   constexpr const char* of_buffer[] = {"_first", "_second", "_fills_second", "_reads_second", "_there",
                                        "_ready", "_token",  "_take",         "_push"};
-  constexpr const char* suffixes[] = {"_fifo", "_in",   "_out",     "_word", "_word_there",   "_left",  "_skipped",
-                                      "_load", "_data", "_credits", "_room", "_credits_next", "_served"};
+  constexpr const char* suffixes[] = {"_fifo",       "_in",        "_out",          "_after_out",     "_word",
+                                      "_word_there", "_waits",     "_load",         "_leaves",        "_left",
+                                      "_skipped",    "_holds_one", "_data",         "_holds_another", "_credits",
+                                      "_fewer",      "_change",    "_credits_next", "_room",          "_served"};
   constexpr const char* argument_suffixes[] = {"_registers", "_wanted", "_sample", "_start",
                                                "_hold",      "_keep",   "_slave"};
   std::vector<std::string> used(std::begin(suffixes), std::end(suffixes));

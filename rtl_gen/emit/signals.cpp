@@ -114,6 +114,7 @@ const std::vector<meaning>& meanings() {
         {"_skipped", "1 when an iteration wrote nothing to '{0}'"},
         {"_data", "the token that is written to '{0}'"},
         {"_credits(_next)?", "places in the FIFO of '{0}' that nothing in flight may need"},
+        {"_(fewer|change)", "how many places more '{0}' will have, or whether it has one fewer"},
         {"_room", "1 when '{0}' has room for another iteration"},
         {"_(registers|wanted|sample|start|hold|keep|slave)", "control of the arguments behind the AXI4-Lite slave"},
     };
