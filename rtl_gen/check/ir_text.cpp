@@ -151,6 +151,11 @@ class source_rewriter : rewriter {
     const bool argument = name == "__epiline_argument", read = name == "__epiline_stream_read";
     const bool result = name == "__epiline_result", write = name == "__epiline_stream_write";
     const bool unwritten = name == "__epiline_unwritten";
+    if (name == "__epiline_stream_empty") {
+      const llvm::FunctionCallee asks = module_.getOrInsertFunction("epiline_check_empty", old.getFunctionType());
+      old.replaceAllUsesWith(builder_.CreateCall(asks, {old.getArgOperand(0)}));
+      return;
+    }
     if (argument || unwritten || read) {
       const payload of = payload_of(old);
       llvm::Value* const token = receive(argument    ? "epiline_check_argument"

@@ -29,6 +29,7 @@
 #include "frontend/reference_parameters.hpp"
 #include "frontend/start_up.hpp"
 #include "frontend/vocabulary.hpp"
+#include "frontend/waiting.hpp"
 
 namespace epiline::frontend {
 
@@ -325,11 +326,6 @@ class port_lowering {
           make_access(builder, access::read, port, width_of(leaves), {}, result_.ports[port].name);
       unpack_token(builder, token, call.getArgOperand(1), type, leaves);
       finished_.push_back(&call);
-    } else if (name_of(call) == "__epiline_stream_empty" || name_of(call) == "__epiline_stream_full") {
-      refuse(
-          place_of(call),
-          "empty(), full() and non-blocking access of a stream make results depend on timing: read() and write() wait "
-          "by themselves, so leave 'if (!in.empty())' away, and end a loop by a count or by a mark in the tokens");
     }
   }
 
@@ -393,6 +389,7 @@ lowered_process lower(process_source& source) {
     if (&function != &process && !function.isDeclaration()) function.deleteBody();
   managers.function.clear();
 
+  wait_instead_of_asking(process, managers, source.is_part);
   note_loops_of_pragmas(process);
   split_whole_structs(process);
   expand_copies(process, unknown_types::kept);

@@ -49,6 +49,10 @@ class AllLevels(CheckTest):
         # Its Verilog once had two operators in front of one another, which Verilator takes and Icarus does not.
         self.check_all("not_of_a_not", "--target", "generic", "--tokens", "60", folder=KERNELS.parent / "regressions")
 
+    def test_processes_that_ask_before_they_read(self):
+        # Natively every fourth question finds nothing, and the call does nothing; hardware waits.
+        self.check_all("asks_before_reading", "--target", "generic", "--tokens", "60",
+                       folder=KERNELS.parent / "regressions")
 
     def test_a_netlist_that_verilator_optimises_wrongly(self):
         # With its data-flow optimiser, Verilator 5.006 computes other sums than Icarus of these gates.

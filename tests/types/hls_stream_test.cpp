@@ -56,6 +56,23 @@ TEST_F(hls_stream, has_the_vendors_spellings) {
   EXPECT_TRUE(s.empty());
 }
 
+TEST_F(hls_stream, a_testbench_may_answer_a_question_with_a_token) {
+  static hls::stream<int>* asked = nullptr;
+  hls::stream<int> s("asked"), other("other");
+  asked = &s;
+  hls::on_empty_question = [](const hls::detail::stream_base& empty) {
+    if (&empty == asked) asked->write(5);
+  };
+  int value = 0;
+  EXPECT_TRUE(other.empty());
+  EXPECT_FALSE(s.empty());
+  EXPECT_EQ(s.read(), 5);
+  EXPECT_TRUE(s.read_nb(value));
+  EXPECT_EQ(value, 5);
+  hls::on_empty_question = nullptr;
+  EXPECT_TRUE(s.empty());
+}
+
 long long drain(hls::stream<int>& s) {
   long long sum = 0;
   while (!s.empty()) sum += s.read();

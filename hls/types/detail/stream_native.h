@@ -149,6 +149,8 @@ inline void require_streams_drained() {
 /// Called when a read finds a stream empty: a testbench that makes tokens up as they are asked for may write one into
 /// it now. Null: there is none.
 inline void (*on_empty_read)(const detail::stream_base& empty) = nullptr;
+/// The same when a question, empty() or read_nb(), finds a stream empty.
+inline void (*on_empty_question)(const detail::stream_base& empty) = nullptr;
 
 template <class T, int DEPTH = 0>
 class stream;
@@ -163,11 +165,16 @@ class stream<T, 0> : public detail::stream_base {
   explicit stream(const std::string& name) : stream_base(0, name.c_str()) {}
   ~stream() { delete[] slots_; }
 
+  bool empty() const {
+    if (stream_base::empty() && on_empty_question != nullptr) on_empty_question(*this);
+    return stream_base::empty();
+  }
+
   /// Takes the oldest token. Throws stream_error if there is none.
   T read() {
-    if (empty()) {
+    if (stream_base::empty()) {
       if (on_empty_read != nullptr) on_empty_read(*this);
-      if (empty()) fail("read of");
+      if (stream_base::empty()) fail("read of");
     }
     T value = static_cast<T&&>(slots_[read_ & mask_]);
     count_read();

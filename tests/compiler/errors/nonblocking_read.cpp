@@ -3,5 +3,6 @@
 
 void nonblocking_read(hls::stream<int>& in, hls::stream<int>& out) {
   int x = 0;
-  if (in.read_nb(x)) out.write(x);  // refused: non-blocking
+  if (!in.read_nb(x)) x = -1;  // refused: non-blocking
+  out.write(x);
 }

@@ -217,7 +217,7 @@ class stream_slot : public slot {
   }
   std::vector<token> take() override {
     std::vector<token> all;
-    while (!stream_.empty()) {
+    while (stream_.size() > 0) {
       T value = stream_.read();
       packer pack;
       members<Index>::visit(value, pack);
@@ -285,8 +285,6 @@ struct parameter {
   unsigned width;  // of a token, or of the scalar
 };
 
-/// Calls that read nothing, one after another, before a top counts as one that goes on for ever.
-constexpr unsigned most_idle_calls = 1000;
 /// A random call that takes longer is not used: seconds of processor time.
 constexpr unsigned most_trial_seconds = 2;
 constexpr unsigned most_trials = 40;
@@ -311,6 +309,7 @@ class session {
   [[noreturn]] void run(int argc, char** argv) {
     current() = this;
     hls::on_empty_read = [](const hls::detail::stream_base& s) { current()->on_empty(s); };
+    hls::on_empty_question = [](const hls::detail::stream_base& s) { current()->on_question(s); };
     std::set_terminate([] { current()->on_terminate(); });
     output_ = argv[argc - 1];
     if (argc == 5) {
@@ -330,7 +329,7 @@ class session {
         calls.pop_front();
       }
       call_once();
-      if (idle_calls_ == most_idle_calls) finish(ending::endless);
+      if (idle_calls_ == most_idle_calls) finish(is_waiting_ ? ending::blocked : ending::endless);
     }
   }
 
@@ -357,6 +356,8 @@ class session {
 
   void call_once() {
     const std::uint64_t before = reads();
+    is_waiting_ = false;
+    empty_answers_ = 0;
     try {
       call_(context_);
     } catch (const hls::stream_error&) {
@@ -424,6 +425,25 @@ class session {
     }
   }
 
+  /// Hardware waits where a source asks, so a call with scalars must not be used up. Without them some questions are
+  /// answered by "empty": the call does nothing then.
+  void on_question(const hls::detail::stream_base& s) {
+    if (call_port_ >= 0) {
+      on_empty(s);
+      if (lacking_ != nullptr && s.size() == 0) end_of_input();
+    } else if (wanted_ > 0 && random_.below(4) > 0) {
+      on_empty(s);
+    }
+    if (s.size() > 0) {
+      empty_answers_ = 0;
+      return;
+    }
+    is_waiting_ = true;
+    if (++empty_answers_ < most_empty_answers) return;
+    lacking_ = &s;  // a top that never returns
+    end_of_input();
+  }
+
   // ---- random stimulus ----------------------------------------------------------------------------------------
   [[noreturn]] void run_random() {
     most_tokens_ = 2 * wanted_;
@@ -440,7 +460,7 @@ class session {
         if (good) random_call(trial);
       }
       if (good) {
-        if (idle_calls_ == most_idle_calls) finish(ending::endless);
+        if (idle_calls_ == most_idle_calls) finish(is_waiting_ ? ending::blocked : ending::endless);
         continue;
       }
       if (any_blocked) random_call(blocked_trial);  // which does not return: a call that is never done
@@ -516,6 +536,8 @@ class session {
   int call_port_ = -1;
   std::uint64_t calls_taken_ = 0;
   unsigned idle_calls_ = 0;
+  bool is_waiting_ = false;  // the last call asked for a token that was not there
+  unsigned empty_answers_ = 0;
   const hls::detail::stream_base* lacking_ = nullptr;
   std::uint64_t seed_ = 0;
   std::uint64_t wanted_ = 0;  // tokens to make up; 0: none are

@@ -11,7 +11,6 @@
 
 namespace epiline::check {
 
-constexpr unsigned most_idle_calls = 1000;
 /// Tokens of an output, beyond those of a run that was stopped, after which it is stopped here too.
 constexpr std::uint64_t surplus_tokens = 1000;
 
@@ -57,7 +56,10 @@ class source_run {
       idle_calls_ = call_port_ < 0 && sum == reads_before_ ? idle_calls_ + 1 : 0;
       reads_before_ = sum;
       exchange_.call_is_done();
-      if (idle_calls_ == most_idle_calls) exchange_.finish(output_, ending::endless, reads_);
+      if (idle_calls_ == most_idle_calls)
+        exchange_.finish(output_, is_waiting_ ? ending::blocked : ending::endless, reads_);
+      is_waiting_ = false;
+      empty_answers_ = 0;
     }
     if (call_port_ < 0) return;
     if (exchange_.inputs[static_cast<unsigned>(call_port_)].empty())
@@ -86,6 +88,17 @@ class source_run {
     const token value = queue.front();
     queue.pop_front();
     return value;
+  }
+  /// Hardware waits where a source asks, so a call with scalars must not be used up.
+  bool is_empty(const void* stream) {
+    const auto port = ports_.find(stream);
+    const bool answer =
+        (port == ports_.end() ? inner_[stream] : exchange_.inputs[static_cast<unsigned>(port->second)]).empty();
+    empty_answers_ = answer ? empty_answers_ + 1 : 0;
+    if (answer && ((port != ports_.end() && call_port_ >= 0) || empty_answers_ == most_empty_answers))
+      exchange_.finish(output_, ending::blocked, reads_);
+    is_waiting_ = is_waiting_ || answer;
+    return answer;
   }
   void write(const void* stream, const token& value) {
     const auto port = ports_.find(stream);
@@ -124,6 +137,8 @@ class source_run {
   bool is_first_ = true;
   std::uint64_t reads_before_ = 0;
   unsigned idle_calls_ = 0;
+  bool is_waiting_ = false;  // the call asked for a token that was not there
+  unsigned empty_answers_ = 0;
 };
 
 // ---- lowered processes: each a coroutine that runs until it lacks a token or a place -------------------------------
@@ -264,6 +279,9 @@ inline __attribute__((used)) void epiline_check_result(int parameter, const std:
 }
 inline __attribute__((used)) void epiline_check_read(const void* stream, std::uint64_t* words, unsigned width) {
   epiline::check::fill(words, epiline::check::source_run::current()->read(stream), width);
+}
+inline __attribute__((used)) bool epiline_check_empty(const void* stream) {
+  return epiline::check::source_run::current()->is_empty(stream);
 }
 inline __attribute__((used)) void epiline_check_write(const void* stream, const std::uint64_t* words, unsigned width) {
   epiline::check::source_run::current()->write(stream, epiline::check::token_of(words, width));
