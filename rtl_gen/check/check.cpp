@@ -18,6 +18,7 @@
 #include "dataflow/network_text.hpp"
 #include "frontend/parameter_members.hpp"
 #include "frontend/stream_arrays.hpp"
+#include "frontend/tasks.hpp"
 
 namespace epiline::check {
 
@@ -235,7 +236,9 @@ struct checker::state {
   }
 
   void run_ir() {
-    if (wants("ir-source")) {
+    if (wants("ir-source") && has_tasks) {
+      table.skip("ir-source", "tasks run side by side, this level one call after another");
+    } else if (wants("ir-source")) {
       top_parts parts = top;
       parts.source_ir = planted.text_of("ir-source", parts.source_ir);
       run_program_level("ir-source", build_source_ir(parts, network, wanted.folder), at_source);
@@ -371,6 +374,7 @@ struct checker::state {
   verdicts table;
   planted_fault planted;
   top_parts top;
+  bool has_tasks = false;
   dataflow::network network;  // before the passes: its ports are those of all levels
   std::vector<native> natives = {{"native-gcc", "g++", "g++", {}}, {"native-clang", EPILINE_CLANG, "clang-19", {}}};
   std::optional<token_file> expected;
@@ -414,6 +418,7 @@ const std::vector<std::uint64_t>& checker::peak_fills() const { return state_->p
 void checker::see_source(llvm::Module& module) {
   state_->top.members = frontend::parameter_members(module, state_->top.source.top);
   state_->top.arrays = frontend::all_arrays(module);
+  state_->has_tasks = frontend::has_tasks(module);
   if (wants("ir-source")) state_->top.source_ir = executable_source(module);
 }
 

@@ -18,12 +18,12 @@ void process_streams::note_declared(const llvm::Function& function) {
       if (!streams_in(record.getVariable()->getType()).empty()) declared_.insert(record.getVariable());
 }
 
-void process_streams::find(llvm::Function& process) {
+void process_streams::find(llvm::Function& process, bool locals_are_kept) {
   for (llvm::Instruction& instruction : llvm::instructions(process))
     for (const llvm::DbgVariableRecord& record : llvm::filterDbgVars(instruction.getDbgRecordRange())) {
       if (!record.isAddressOfVariable()) continue;
       auto* slot = llvm::dyn_cast_or_null<llvm::AllocaInst>(record.getVariableLocationOp(0));
-      if (slot != nullptr) add_object(*slot, *record.getVariable(), false);
+      if (slot != nullptr) add_object(*slot, *record.getVariable(), locals_are_kept);
     }
   for (llvm::GlobalVariable& variable : module_.globals()) {
     llvm::SmallVector<llvm::DIGlobalVariableExpression*, 1> described;

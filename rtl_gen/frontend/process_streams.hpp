@@ -41,7 +41,7 @@ class process_streams {
   void note_declared(const llvm::Function& function);
 
   /// Finds the local streams of `process`, where everything but the processes is inlined, and the static ones.
-  void find(llvm::Function& process);
+  void find(llvm::Function& process, bool locals_are_kept);
 
   /// One that the source does not know: `channel` stands for it.
   void add(llvm::Value& channel, const std::string& name, bool is_static, const source_place& place);

@@ -24,6 +24,7 @@
 #include "frontend/reference_parameters.hpp"
 #include "frontend/shared_variables.hpp"
 #include "frontend/start_up.hpp"
+#include "frontend/tasks.hpp"
 
 namespace epiline::frontend {
 
@@ -55,6 +56,8 @@ class splitter {
   }
 
   split_top run() {
+    has_tasks_ = has_tasks(module_);
+    call_tasks(module_);
     const bool several = find_region() && find_parts();
     streams_.take_pragmas([this](const llvm::Function& in) { return is_left_over(in); }, source_.notes);
     for (llvm::CallInst* call : calls_of(module_, dataflow_pragma)) call->eraseFromParent();
@@ -132,7 +135,7 @@ class splitter {
     managers_.function.clear();
     find_calls();
     unroll_calls();
-    streams_.find(process_);
+    streams_.find(process_, has_tasks_);
     if (calls_.size() == 1 && streams_.all().empty()) return false;
     check_calls();
     share_variables();
@@ -297,6 +300,7 @@ class splitter {
   split_top result_;
   process_streams streams_;
   source_place dataflow_place_;
+  bool has_tasks_ = false;                             // they never end, and neither do their streams
   bool is_inlined_ = false;                            // all but the processes
   std::vector<llvm::Function*> region_;                // what is written out in the top
   std::vector<llvm::Function*> functions_;             // that are processes

@@ -43,6 +43,8 @@ class stream_registry {
   }
   inline void remove(const stream_base* s);
   inline std::vector<leftover_stream> leftovers() const;
+  /// From all living streams.
+  inline std::uint64_t tokens_read() const;
   void forget() {
     const std::lock_guard<std::mutex> lock(mutex_);
     dead_.clear();
@@ -54,6 +56,34 @@ class stream_registry {
   std::vector<leftover_stream> dead_;
   std::uint64_t created_ = 0;
 };
+
+/// What hls_task.h adds: functions that run beside the one that finds a stream empty, and may write a token into it.
+class tasks_beside {
+ public:
+  /// Until the stream has a token, or nobody can go on.
+  virtual void wait_for(const stream_base& s) = 0;
+  /// In a task: the others once. Outside: all, until the stream has a token (null: until nobody can go on).
+  virtual void let_run(const stream_base* s) = 0;
+
+ protected:
+  ~tasks_beside() = default;
+};
+inline tasks_beside* tasks = nullptr;
+
+}  // namespace detail
+
+/// Called when a read finds a stream empty: a testbench that makes tokens up as they are asked for may write one into
+/// it now. Null: there is none.
+inline void (*on_empty_read)(const detail::stream_base& empty) = nullptr;
+/// The same when a question, empty() or read_nb(), finds a stream empty.
+inline void (*on_empty_question)(const detail::stream_base& empty) = nullptr;
+
+/// Lets tasks (hls_task.h) run until none can go on.
+inline void run_tasks() {
+  if (detail::tasks != nullptr) detail::tasks->let_run(nullptr);
+}
+
+namespace detail {
 
 /// What does not depend on the token type: name, counts, errors.
 class stream_base {
@@ -88,6 +118,15 @@ class stream_base {
     stream_registry::instance().remove(this);
   }
 
+  /// Somebody else may write a token now.
+  void find_token(bool reads) const {
+    if (const auto hook = reads ? on_empty_read : on_empty_question; hook != nullptr) hook(*this);
+    if (!empty() || tasks == nullptr) return;
+    if (reads)
+      tasks->wait_for(*this);
+    else
+      tasks->let_run(this);
+  }
   void count_write() {
     ++written_;
     if (size() > peak_) peak_ = size();
@@ -129,6 +168,13 @@ inline std::vector<leftover_stream> stream_registry::leftovers() const {
   return result;
 }
 
+inline std::uint64_t stream_registry::tokens_read() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::uint64_t sum = 0;
+  for (const stream_base* s : living_) sum += s->tokens_read();
+  return sum;
+}
+
 }  // namespace detail
 
 /// Streams with tokens nobody read: those already destroyed, then the living ones, each in the order of creation.
@@ -146,12 +192,6 @@ inline void require_streams_drained() {
   if (!message.empty()) throw stream_error("hls::stream: tokens left unread at the end in " + message);
 }
 
-/// Called when a read finds a stream empty: a testbench that makes tokens up as they are asked for may write one into
-/// it now. Null: there is none.
-inline void (*on_empty_read)(const detail::stream_base& empty) = nullptr;
-/// The same when a question, empty() or read_nb(), finds a stream empty.
-inline void (*on_empty_question)(const detail::stream_base& empty) = nullptr;
-
 template <class T, int DEPTH = 0>
 class stream;
 
@@ -166,14 +206,14 @@ class stream<T, 0> : public detail::stream_base {
   ~stream() { delete[] slots_; }
 
   bool empty() const {
-    if (stream_base::empty() && on_empty_question != nullptr) on_empty_question(*this);
+    if (stream_base::empty()) find_token(false);
     return stream_base::empty();
   }
 
   /// Takes the oldest token. Throws stream_error if there is none.
   T read() {
     if (stream_base::empty()) {
-      if (on_empty_read != nullptr) on_empty_read(*this);
+      find_token(true);
       if (stream_base::empty()) fail("read of");
     }
     T value = static_cast<T&&>(slots_[read_ & mask_]);

@@ -360,6 +360,7 @@ class session {
     empty_answers_ = 0;
     try {
       call_(context_);
+      hls::run_tasks();
     } catch (const hls::stream_error&) {
       end_of_input();
     }
@@ -418,7 +419,10 @@ class session {
     for (std::size_t i = 0; i < slots_.size(); ++i) {
       if (slots_[i]->stream() != &s) continue;
       lacking_ = &s;
-      if (wanted_ == 0 || s.tokens_written() >= most_tokens_) return;
+      if (wanted_ == 0 || s.tokens_written() >= most_tokens_) {
+        is_waiting_ = true;  // should it be a task that reads
+        return;
+      }
       const token made = slots_[i]->make_up(random_, token_bits_);
       if (!is_trial_) exchange_.made_up(parameters_[i].port, made);
       slots_[i]->give(made);
