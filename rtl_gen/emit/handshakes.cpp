@@ -112,10 +112,11 @@ void write_output(module_text& m, const dataflow::port& port, const std::string&
   m.line("  reg [{0}:0] {1}_in, {1}_out, {1}_after_out;", counter - 1, name);
   m.line("  reg {}{}_word;", range_of(port.width), name);
   m.line("  reg {0}_waits;  // the FIFO holds a word: in a flip-flop, because what takes it out enables many", name);
-  // Placers put a flip-flop beside the gate before it. The credits stand near the decision to issue: what they hear of
-  // a word that leaves has two flip-flops, so that the gate can stand near what it enables, at the output.
-  m.line("  reg {}_word_there, {}_leaves, {}_left{};", name, name, name,
-         always ? "" : fmt::format(", {}_skipped", name));
+  // The credits stand near the decision to issue, the gate that lets a word leave near what it enables, at the output:
+  // flip-flops in between, one for each quarter of the device.
+  m.line("  reg {0}_word_there{1};", name, always ? "" : fmt::format(", {}_skipped", name));
+  m.line("  reg [{}:0] {}_leaves;", clocks_to_credits - 1, name);
+  m.line("  wire {0}_left = {0}_leaves[{1}];", name, clocks_to_credits - 1);
   // tready comes from a pin, or from somebody else's gates: only the last buffer's flags hang on it.
   const std::string end = name + "_end";
   write_buffer(m, end, port.width, name + "_word", name + "_word_there", false);
@@ -145,8 +146,7 @@ void write_output(module_text& m, const dataflow::port& port, const std::string&
   m.line("    if ({0}_load) {0}_after_out <= {0}_after_out + {1};", name, literal(counter, 1));
   m.line("    {0}_waits <= {0}_load ? {0}_holds_another : {0}_holds_one;", name);
   m.line("    {0}_word_there <= {0}_load | ({0}_word_there & ~{1}_ready);", name, end);
-  m.line("    {}_leaves <= {}_load;", name, name);
-  m.line("    {}_left <= {}_leaves;", name, name);
+  m.line("    {0}_leaves <= {{{0}_leaves[{1}:0], {0}_load}};", name, clocks_to_credits - 2);
   if (!always) m.line("    {}_skipped <= {} & ~({});", name, m.values.valid(stage), pushes);
   m.line("    {}_credits <= {}_credits_next;", name, name);
   m.line("    if (resetting) begin");
@@ -155,8 +155,7 @@ void write_output(module_text& m, const dataflow::port& port, const std::string&
   m.line("      {}_out <= {};", name, literal(counter, 0));
   m.line("      {}_after_out <= {};", name, literal(counter, 1));
   m.line("      {}_waits <= 1'b0;", name);
-  m.line("      {}_leaves <= 1'b0;", name);
-  m.line("      {}_left <= 1'b0;", name);
+  m.line("      {}_leaves <= {};", name, literal(clocks_to_credits, 0));
   if (!always) m.line("      {}_skipped <= 1'b0;", name);
   m.line("      {}_credits <= {};", name, literal(counter, fifo.depth));
   m.line("    end");

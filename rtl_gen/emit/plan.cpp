@@ -21,9 +21,9 @@ using schedule::storage_kind;
 namespace {
 
 // From the issue to the credit's return: issue, FIFO write, the flag that a word waits, load of the output register,
-// two clocks for its report to the counter, the counter, and one credit kept back because the counter sees an issue a
-// clock late.
-constexpr int credit_round_trip = 8;
+// the way of its report to the counter, the counter, and one credit kept back because the counter sees an issue a clock
+// late.
+constexpr int credit_round_trip = 6 + clocks_to_credits;
 
 /// The 1-bit nodes whose conjunction `id` is, with their polarity.
 void collect_terms(const graph& g, node_id id, bool positive, std::vector<std::pair<node_id, bool>>& terms) {

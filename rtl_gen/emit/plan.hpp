@@ -41,6 +41,9 @@ struct delay_line {
   [[nodiscard]] int words() const { return storage == schedule::storage_kind::block ? clocks() - 1 : clocks(); }
 };
 
+/// From the gate that lets a word leave an output's FIFO to the counter of its free places.
+inline constexpr int clocks_to_credits = 4;
+
 struct output_fifo {
   dataflow::port_id port = dataflow::none;
   std::vector<dataflow::node_id> writes;

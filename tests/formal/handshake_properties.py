@@ -109,7 +109,7 @@ OUTPUT = """
       // Whatever is on its way has room, so nothing overflows.
       assert ({n}_formal_fill <= {depth});
       if ({n}_push) assert ({n}_formal_fill < {depth});
-      assert ({n}_credits + {n}_formal_on_the_way + {n}_formal_fill + {n}_leaves + {n}_left{skipped} == {depth});
+      assert ({n}_credits + {n}_formal_on_the_way + {n}_formal_fill + {leaves}{skipped} == {depth});
       if (may_issue) assert ({n}_credits > 1);
       assert ({n}_credits <= {depth} && {n}_credits >= valid[1]);
       // The watched token comes out under its number.
@@ -193,9 +193,11 @@ def with_handshake_properties(verilog, module):
         stage = int(re.search(rf"wire {name}_push = valid\[(\d+)\]", verilog)[1])
         zeros = f"{counter}'d0"
         on_the_way = " + ".join(f"{{{zeros}, valid[{i}]}}" for i in range(2, stage + 1)) or f"{counter + 1}'d0"
+        last_clock = int(re.search(rf"reg \[(\d+):0\] {name}_leaves;", verilog)[1])
+        leaves = " + ".join(f"{{{zeros}, {name}_leaves[{i}]}}" for i in range(last_clock + 1))
         text += OUTPUT.format(
             n=name, top=width, counter=counter, pointer=counter - 1, depth=int(last) + 1, zeros=zeros,
-            on_the_way=on_the_way, skipped=f" + {name}_skipped" if f"{name}_skipped" in verilog else "",
+            on_the_way=on_the_way, leaves=leaves, skipped=f" + {name}_skipped" if f"{name}_skipped" in verilog else "",
             valid=f"{name}_word_there", ready=f"{name}_end_ready")
     return insert(verilog, module, text), len(inputs), len(outputs)
 

@@ -44,7 +44,7 @@ module_faults = [
     ("an iteration without its token", r"    & s_there;", "    ;"),
     ("an iteration without room", r"may_issue <= ~holding_next & m_room", "may_issue <= ~holding_next"),
     ("room that is counted twice", r"m_credits_next > 5'd1", "m_credits_next > 5'd0"),
-    ("room given back early", r"m_leaves <= m_load", "m_leaves <= m_load | (m_in != m_out)"),
+    ("room given back early", r"m_leaves\[2:0\], m_load\}", "m_leaves[2:0], m_load | (m_in != m_out)}"),
     ("a place that nobody gives back", r"m_change = \{\{4\{m_fewer\}\}, ", "m_change = {4'd0, "),
     ("room lost in a reset", r"m_credits <= 5'd16", "m_credits <= 5'd15"),
     ("output: an offer taken back", r"m_word_there <= m_load \| .*;", "m_word_there <= m_load;"),
