@@ -16,7 +16,9 @@ namespace epiline::kernels {
 ///
 /// The rivals are known only after the winner, so all costs wait in block RAM for `Config::uniqueness_delay`
 /// iterations, which must cover the pipeline depth of the winner's tree, and with several groups of levels for those
-/// that come behind them; they come out beside the winner.
+/// that come behind them; they come out beside the winner. With a delay of 0 and one group the pipeline itself makes
+/// them wait, in LUT RAM beside what needs them: half the block RAMs of two pixels a beat, whose wires go all over the
+/// device, for some more LUTs.
 ///
 /// Config: levels, parallel_disparities, pixels_per_beat, window_radius, max_width, uniqueness_delay.
 template <class Config>
@@ -26,6 +28,7 @@ class uniqueness_check {
   static constexpr int groups = level_groups<Config>::count;
   static constexpr int levels = level_groups<Config>::size;  // of a group
   static constexpr int delay_beats = window::divide_up(Config::uniqueness_delay + groups - 1, groups);
+  static_assert(groups == 1 || Config::uniqueness_delay > 0, "groups of levels need a uniqueness_delay");
   using costs_t = typename color_sad<Config>::costs;
   using cost_t = typename color_sad<Config>::cost_t;
   using ratio_t = ap_uint<5>;
@@ -41,15 +44,18 @@ class uniqueness_check {
   result step(const costs_t& costs, const disparity_beat_of<lanes>& found, const cost_t (&lowest)[lanes], ratio_t ratio,
               const level_group<Config>& group) {
 #pragma HLS INLINE
-    if (group.first()) now_ = winners_.oldest();
-    if (group.last()) {
-      waiting_winners newest;
-      newest.found = found;
-      for (int lane = 0; lane < lanes; ++lane) newest.threshold[lane] = threshold(lowest[lane], ratio);
-      winners_.push(newest);
-    }
+    waiting_winners newest;
+    newest.found = found;
+    for (int lane = 0; lane < lanes; ++lane) newest.threshold[lane] = threshold(lowest[lane], ratio);
     result out;
-    out.costs = costs_.step(costs);
+    if constexpr (delay_beats == 0) {
+      now_ = newest;
+      out.costs = costs;
+    } else {
+      if (group.first()) now_ = winners_.oldest();
+      if (group.last()) winners_.push(newest);
+      out.costs = costs_.step(costs);
+    }
     for (int lane = 0; lane < lanes; ++lane) {
       if (has_rival(out.costs.at[lane], now_.found.pixel[lane].disparity, now_.threshold[lane], group.first_level())) {
         now_.found.pixel[lane].defined = 0;
@@ -81,8 +87,9 @@ class uniqueness_check {
     return window::reduce(rival, [](ap_uint<1> a, ap_uint<1> b) -> ap_uint<1> { return a | b; }) != 0;
   }
 
-  window::delay_line<waiting_winners, delay_beats> winners_;
-  window::delay_line<costs_t, delay_beats * groups> costs_;
+  static constexpr int least_length = 1;  // of a line that nobody uses
+  window::delay_line<waiting_winners, delay_beats == 0 ? least_length : delay_beats> winners_;
+  window::delay_line<costs_t, delay_beats == 0 ? least_length : delay_beats * groups> costs_;
   waiting_winners now_;  // of the beat whose costs have waited
 };
 

@@ -29,7 +29,7 @@ struct color_fuzzy_config {
   static constexpr int window_radius = 3;
   static constexpr int fuzzy_radius = 3;
   static constexpr window::row_memory row_memory = window::row_memory::side_by_side;
-  static constexpr int uniqueness_delay = 32;  // iterations the costs wait for the winner
+  static constexpr int uniqueness_delay = 32;  // iterations the costs wait for the winner; see uniqueness_check
   using rule_base = kernels::triangular_rule_base<6>;
 };
 

@@ -22,6 +22,7 @@ struct few_levels_of : Full {
 template <class Full>
 struct two_pixels_a_beat_of : Full {
   static constexpr int pixels_per_beat = 2;
+  static constexpr int uniqueness_delay = 0;  // of the methods that have that check
 };
 
 /// What all methods' walks over a frame have in common; see window::raster.

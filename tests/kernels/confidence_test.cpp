@@ -22,7 +22,7 @@ struct config {
   static constexpr window::row_memory row_memory = window::row_memory::side_by_side;
   static constexpr int pixels_per_beat = Lanes;
   static constexpr int window_radius = 3;
-  static constexpr int uniqueness_delay = 11;
+  static constexpr int uniqueness_delay = Lanes == 2 && ParallelDisparities == all_levels ? 0 : 11;
 };
 
 /// A raster of padded rows: costs[column][d], 65535 where d > x, outside the frame or from a level that takes no part.
