@@ -83,8 +83,12 @@ void append(cosim::token_list& list, const llvm::APInt& value) {
 
 graph_verdict run_graph(const dataflow::network& design, const std::vector<recorded_port>& recorded) {
   graph_verdict verdict;
+  const auto leads_backwards = [&](const dataflow::fifo& fifo) {
+    return dataflow::find_end(design, fifo.name, false).process > dataflow::find_end(design, fifo.name, true).process;
+  };
   verdict.waits =
-      std::ranges::any_of(design.processes, [](const dataflow::graph& g) { return g.patient != dataflow::none; });
+      std::ranges::any_of(design.processes, [](const dataflow::graph& g) { return g.patient != dataflow::none; }) ||
+      std::ranges::any_of(design.fifos, leads_backwards);
   check_count(design.ports, recorded);
   dataflow::network_interpreter engine(design);
   for (dataflow::port_id id = 0; id < design.ports.size(); ++id) {

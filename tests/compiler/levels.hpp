@@ -16,7 +16,8 @@ namespace epiline::compiler_test {
 struct graph_verdict {
   std::string difference;        // empty: equal
   std::uint64_t iterations = 0;  // that took place
-  bool waits = false;            // iterations wait for one another (patient registers): clocks are no fixed number
+  bool waits = false;  // iterations wait for one another (patient registers, streams that lead backwards): clocks are
+                       // no fixed number
 };
 
 /// The graph, or the network of graphs, interpreted.
