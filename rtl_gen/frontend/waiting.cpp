@@ -59,6 +59,14 @@ bool any_in(const llvm::Loop& loop, F&& what) {
                      [&](const BasicBlock* block) { return std::any_of(block->begin(), block->end(), what); });
 }
 
+/// No way leads out, but those that are never taken.
+bool never_ends(const llvm::Loop& loop) {
+  llvm::SmallVector<BasicBlock*> exits;
+  loop.getExitBlocks(exits);
+  return std::all_of(exits.begin(), exits.end(),
+                     [](const BasicBlock* exit) { return llvm::isa<llvm::UnreachableInst>(exit->getTerminator()); });
+}
+
 void answer(CallInst& question, bool yes) {
   question.replaceAllUsesWith(llvm::ConstantInt::get(question.getType(), yes ? 1 : 0));
 }
@@ -170,7 +178,7 @@ class answered_process {
   /// The next call begins at the head of the loop that never ends.
   [[nodiscard]] bool begins_a_call(const BasicBlock& block) const {
     const llvm::Loop* const loop = loops_.getLoopFor(&block);
-    return loop != nullptr && loop->getHeader() == &block && loop->hasNoExitBlocks();
+    return loop != nullptr && loop->getHeader() == &block && never_ends(*loop);
   }
   [[nodiscard]] bool is_end(const BasicBlock& block) const {
     return llvm::isa<llvm::ReturnInst>(block.getTerminator()) ||
@@ -178,17 +186,18 @@ class answered_process {
                        [&](const BasicBlock* next) { return begins_a_call(*next); });
   }
 
-  /// Not in a loop of the source that counts, or keeps something from one pass to the next.
-  [[nodiscard]] bool ends_with_the_call(const CallInst& mark) const {
-    const llvm::Loop* const loop = loops_.getLoopFor(mark.getParent());
-    return loop == nullptr || (loop->hasNoExitBlocks() && loop->getHeader()->phis().empty());
-  }
-
   /// The loop of the process around its calls, in contrast to one of the source.
   [[nodiscard]] static bool is_of_calls(const llvm::Loop& loop) {
     return any_in(loop, [](const Instruction& instruction) {
       return calls_named(instruction, "__epiline_port") || takes_argument(instruction);
     });
+  }
+
+  /// Not in a loop of the source that counts, or keeps something from one pass to the next. From call to call nothing
+  /// is kept but state: a variable that is not written on every way has no value then.
+  [[nodiscard]] bool ends_with_the_call(const CallInst& mark) const {
+    const llvm::Loop* const loop = loops_.getLoopFor(mark.getParent());
+    return loop == nullptr || (never_ends(*loop) && (is_of_calls(*loop) || loop->getHeader()->phis().empty()));
   }
 
   /// The blocks of the same call that can come before, or after, with `start`.
@@ -225,7 +234,7 @@ class answered_process {
                         [&](const char* name) { return calls_named(instruction, name); });
   }
   static constexpr const char* harmless[] = {"__epiline_port", "__epiline_argument", "__epiline_unwritten",
-                                             "__epiline_pragma_"};
+                                             "__epiline_internal_stream", "__epiline_pragma_"};
 
   analysis_managers& managers_;
   llvm::Function* copy_ = nullptr;
