@@ -294,6 +294,7 @@ class session {
     }
     /// Takes all tokens written since the last time.
     std::vector<T> drain() {
+      static_assert(!std::is_same_v<T, bool>, "a vector of bools has no elements to look at: use ap_uint<1>");
       std::vector<T> result;
       while (!stream.empty()) {
         result.push_back(stream.read());

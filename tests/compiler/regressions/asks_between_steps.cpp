@@ -6,7 +6,7 @@
 
 typedef ap_axiu<32, 0, 0, 0> word_t;
 
-static void add_up(hls::stream<word_t>& in, hls::stream<word_t>& out, hls::stream<bool>& is_good) {
+void asks_between_steps(hls::stream<word_t>& in, hls::stream<word_t>& out, hls::stream<ap_uint<1>>& is_good) {
 #pragma HLS PIPELINE II = 1
   static ap_uint<17> sums[2] = {0, 0};
   static ap_uint<1> step = 0;
@@ -39,39 +39,4 @@ static void add_up(hls::stream<word_t>& in, hls::stream<word_t>& out, hls::strea
     out.write(word);
     is_last = word.last;
   }
-}
-
-static void drop(hls::stream<word_t>& in, hls::stream<bool>& is_good, hls::stream<word_t>& out) {
-#pragma HLS PIPELINE II = 1
-  enum state_t { FIRST, KEEP, SKIP };
-  static state_t state = FIRST;
-  word_t word;
-  switch (state) {
-    case FIRST:
-      if (!is_good.empty()) state = is_good.read() ? KEEP : SKIP;
-      break;
-    case KEEP:
-      if (!in.empty()) {
-        in.read(word);
-        out.write(word);
-        if (word.last) state = FIRST;
-      }
-      break;
-    default:
-      if (!in.empty()) {
-        in.read(word);
-        if (word.last) state = FIRST;
-      }
-      break;
-  }
-}
-
-void asks_between_steps(hls::stream<word_t>& in, hls::stream<word_t>& out) {
-#pragma HLS DATAFLOW
-  static hls::stream<word_t> words("words");
-  static hls::stream<bool> is_good("is_good");
-#pragma HLS STREAM variable = words depth = 32
-#pragma HLS STREAM variable = is_good depth = 4
-  add_up(in, words, is_good);
-  drop(words, is_good, out);
 }
