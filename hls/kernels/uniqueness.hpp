@@ -87,9 +87,9 @@ class uniqueness_check {
     return window::reduce(rival, [](ap_uint<1> a, ap_uint<1> b) -> ap_uint<1> { return a | b; }) != 0;
   }
 
-  static constexpr int least_length = 1;  // of a line that nobody uses
-  window::delay_line<waiting_winners, delay_beats == 0 ? least_length : delay_beats> winners_;
-  window::delay_line<costs_t, delay_beats == 0 ? least_length : delay_beats * groups> costs_;
+  static constexpr int line_beats = delay_beats == 0 ? 1 : delay_beats;  // nobody uses the line of a delay of 0
+  window::delay_line<waiting_winners, line_beats> winners_;
+  window::delay_line<costs_t, line_beats * groups> costs_;
   waiting_winners now_;  // of the beat whose costs have waited
 };
 

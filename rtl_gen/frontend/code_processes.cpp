@@ -14,6 +14,7 @@
 #include <string>
 
 #include "frontend/calls.hpp"
+#include "frontend/loops.hpp"
 #include "frontend/source.hpp"
 
 namespace epiline::frontend {
@@ -70,10 +71,7 @@ class outliner {
   }
 
   [[nodiscard]] bool has_process(const llvm::Loop& loop) const {
-    return std::any_of(loop.block_begin(), loop.block_end(), [&](const llvm::BasicBlock* block) {
-      return std::any_of(block->begin(), block->end(),
-                         [&](const auto& instruction) { return is_process(instruction); });
-    });
+    return any_in(loop, [&](const llvm::Instruction& instruction) { return is_process(instruction); });
   }
 
   /// The loop without an end is the hardware's: call after call.

@@ -22,6 +22,7 @@
 #include "frontend/calls.hpp"
 #include "frontend/compile_time.hpp"
 #include "frontend/host_mathematics.hpp"
+#include "frontend/loops.hpp"
 #include "frontend/power_up.hpp"
 #include "frontend/source.hpp"
 
@@ -413,18 +414,12 @@ class known_loop {
   std::vector<llvm::GlobalVariable*> sources_;
 };
 
-bool has_floating_point(const llvm::Loop& loop) {
-  return std::any_of(loop.block_begin(), loop.block_end(), [](const llvm::BasicBlock* block) {
-    return std::any_of(block->begin(), block->end(), is_floating);
-  });
-}
-
 bool run_known_loop(llvm::Function& process, analysis_managers& managers) {
   llvm::LoopInfo& loops = managers.function.getResult<llvm::LoopAnalysis>(process);
   llvm::ScalarEvolution& evolution = managers.function.getResult<llvm::ScalarEvolutionAnalysis>(process);
   llvm::DominatorTree& dominators = managers.function.getResult<llvm::DominatorTreeAnalysis>(process);
   for (llvm::Loop* loop : loops.getLoopsInPreorder()) {  // outer ones first
-    const bool is_table = has_floating_point(*loop);
+    const bool is_table = any_in(*loop, is_floating);
     if (!is_table && evolution.getSmallConstantMaxTripCount(loop) != 0) continue;
     const std::uint64_t most_steps = is_table ? compile_time_run::most_steps_of_a_table : most_steps_of_a_number;
     if (known_loop(*loop, loops, dominators, process, most_steps).run()) return true;

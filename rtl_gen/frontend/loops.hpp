@@ -1,9 +1,20 @@
 #pragma once
 
+#include <llvm/Analysis/LoopInfo.h>
 #include <llvm/IR/Function.h>
 #include <llvm/IR/PassManager.h>
 
+#include <algorithm>
+
 namespace epiline::frontend {
+
+/// Whether the loop has an instruction of that kind.
+template <class Kind>
+[[nodiscard]] bool any_in(const llvm::Loop& loop, const Kind& is_of_kind) {
+  return std::any_of(loop.block_begin(), loop.block_end(), [&](const llvm::BasicBlock* block) {
+    return std::any_of(block->begin(), block->end(), is_of_kind);
+  });
+}
 
 /// Notes at every UNROLL pragma call which loop it stands in: the optimiser takes loops away that never come to a
 /// second pass, and the pragma must not pass to the loop around. Before any of LLVM's passes.

@@ -41,6 +41,7 @@ class process_streams {
   void note_declared(const llvm::Function& function);
 
   /// Finds the local streams of `process`, where everything but the processes is inlined, and the static ones.
+  /// `locals_are_kept`: the local streams keep tokens from call to call as the static ones do.
   void find(llvm::Function& process, bool locals_are_kept);
 
   /// One that the source does not know: `channel` stands for it.

@@ -1,10 +1,10 @@
 #include "frontend/tasks.hpp"
 
-#include <llvm/IR/InstIterator.h>
 #include <llvm/IR/Instructions.h>
 
 #include <algorithm>
 #include <iterator>
+#include <string>
 #include <vector>
 
 #include "frontend/calls.hpp"
@@ -15,9 +15,8 @@ namespace epiline::frontend {
 
 namespace {
 
-bool makes_tasks(const llvm::Function& function) {
-  return llvm::StringRef(readable_name(function)).starts_with("hls::task::task<");
-}
+/// Whether it is a constructor of hls::task.
+bool makes_tasks(const llvm::Function& function) { return function.getName().starts_with("_ZN3hls4taskC"); }
 
 /// The task itself and its function come before the streams.
 void call_task(llvm::CallInst& made) {
@@ -41,13 +40,11 @@ void call_task(llvm::CallInst& made) {
 bool has_tasks(const llvm::Module& module) { return std::any_of(module.begin(), module.end(), makes_tasks); }
 
 void call_tasks(llvm::Module& module) {
-  if (!has_tasks(module)) return;
-  std::vector<llvm::CallInst*> made;
-  for (llvm::Function& function : module)
-    for (llvm::Instruction& instruction : llvm::instructions(function))
-      if (const llvm::Function* const callee = called_by(instruction); callee != nullptr && makes_tasks(*callee))
-        made.push_back(llvm::cast<llvm::CallInst>(&instruction));
-  for (llvm::CallInst* one : made) call_task(*one);
+  std::vector<std::string> constructors;
+  for (const llvm::Function& function : module)
+    if (makes_tasks(function)) constructors.push_back(function.getName().str());
+  for (const std::string& constructor : constructors)
+    for (llvm::CallInst* made : calls_of(module, constructor)) call_task(*made);
 }
 
 }  // namespace epiline::frontend

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "frontend/calls.hpp"
+#include "frontend/loops.hpp"
 #include "frontend/source.hpp"
 
 namespace epiline::frontend {
@@ -37,8 +38,8 @@ bool asks(const Instruction& instruction) {
 
 std::vector<CallInst*> questions_of(llvm::Function& function) {
   std::vector<CallInst*> found;
-  for (Instruction& instruction : llvm::instructions(function))
-    if (asks(instruction)) found.push_back(llvm::cast<CallInst>(&instruction));
+  for (const char* name : {"__epiline_stream_empty", "__epiline_stream_full"})
+    for (CallInst* question : calls_of(*function.getParent(), name, &function)) found.push_back(question);
   return found;
 }
 
@@ -51,12 +52,6 @@ bool writes_variable(const Instruction& instruction) {
                                      : copy != nullptr ? copy->getRawDest()
                                                        : nullptr;
   return written != nullptr && llvm::isa<llvm::AllocaInst>(llvm::getUnderlyingObject(written));
-}
-
-template <class F>
-bool any_in(const llvm::Loop& loop, F&& what) {
-  return std::any_of(loop.block_begin(), loop.block_end(),
-                     [&](const BasicBlock* block) { return std::any_of(block->begin(), block->end(), what); });
 }
 
 /// No way leads out, but those that are never taken.
@@ -90,11 +85,12 @@ bool is_same_stream(const CallInst& a, const CallInst& b) {
 /// A copy of the process in which some questions have their answers. The calls stay, as marks.
 class answered_process {
  public:
-  /// `yes`: the one question whose answer is yes; null: all answers are no.
-  answered_process(llvm::Function& process, const CallInst* yes, analysis_managers& managers) : managers_(managers) {
+  /// `yes`: the one of the questions whose answer is yes; null: all answers are no.
+  answered_process(const std::vector<CallInst*>& questions, const CallInst* yes, analysis_managers& managers)
+      : managers_(managers) {
     llvm::ValueToValueMapTy copies;
-    copy_ = llvm::CloneFunction(&process, copies);
-    for (CallInst* question : questions_of(process)) {
+    copy_ = llvm::CloneFunction(questions.front()->getFunction(), copies);
+    for (const CallInst* question : questions) {
       auto* const copy = llvm::cast<CallInst>(copies[question]);
       if (question == yes) answer(*copy, true);
       if (yes == nullptr) answer(*copy, false);
@@ -222,8 +218,7 @@ class answered_process {
   [[nodiscard]] bool dies_with_the_call(const Instruction& at) const {
     if (!writes_variable(at)) return false;
     const llvm::Loop* const loop = loops_.getLoopFor(at.getParent());
-    if (loop == nullptr) return true;
-    return is_of_calls(*loop);
+    return loop == nullptr || is_of_calls(*loop);
   }
 
   [[nodiscard]] bool has_effect(const Instruction& instruction) const {
@@ -251,7 +246,7 @@ void wait_instead_of_asking(llvm::Function& process, analysis_managers& managers
   const bool takes_scalars = is_part && std::any_of(llvm::inst_begin(process), llvm::inst_end(process), takes_argument);
   std::set<const CallInst*> in_loops;
   for (const CallInst* question : questions) {
-    const answered_process with_yes(process, question, managers);
+    const answered_process with_yes(questions, question, managers);
     if (takes_scalars && with_yes.is_asked(question)) refuse_question(*question, "in a process that takes scalars");
     if (const Instruction* const effect = with_yes.effect_around(question))
       refuse_question(*question, fmt::format("since line {} does something even when the stream {}",
@@ -259,7 +254,7 @@ void wait_instead_of_asking(llvm::Function& process, analysis_managers& managers
     if (with_yes.is_in_a_loop(question)) in_loops.insert(question);
   }
   {
-    const answered_process all_no(process, nullptr, managers);
+    const answered_process all_no(questions, nullptr, managers);
     for (const CallInst* question : questions) {
       if (!all_no.keeps_nothing(question, in_loops.contains(question)))
         refuse_question(*question, "in a loop that ends, counts or keeps something");

@@ -10,11 +10,11 @@ namespace epiline::frontend {
 /// Natively a call that finds nothing returns, and is made again; hardware waits. Both give the same tokens where a
 /// call in which the stream is empty (or full) does nothing at all: no other stream is accessed and no state changes,
 /// before or after the question, and a stream that was asked whether it is empty is read on every way from there. Such
-/// questions get the answer "no" here, since the read waits; others are left, to be refused. Before the first of LLVM's
-/// passes that rearrange code.
+/// questions get the answer "no" here, since the read waits; others are refused. `while (!in.empty())` is such a
+/// question where no variable lives from one pass to the next. Before the first of LLVM's passes that rearrange code.
 ///
-/// The streams of a process with parameters of its own, other than streams, are left too: with which call's parameters
-/// a token meets would depend on timing.
+/// In a process of a DATAFLOW region (`is_part`) that takes scalars all are refused: which call's scalars a token meets
+/// would depend on timing.
 void wait_instead_of_asking(llvm::Function& process, analysis_managers& managers, bool is_part);
 
 }  // namespace epiline::frontend

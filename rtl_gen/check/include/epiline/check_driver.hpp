@@ -329,7 +329,7 @@ class session {
         calls.pop_front();
       }
       call_once();
-      if (idle_calls_ == most_idle_calls) finish(is_waiting_ ? ending::blocked : ending::endless);
+      end_if_idle();
     }
   }
 
@@ -368,6 +368,10 @@ class session {
     exchange_.call_is_done();
     ++exchange_.calls;
     idle_calls_ = call_port_ < 0 && reads() == before ? idle_calls_ + 1 : 0;
+  }
+
+  void end_if_idle() {
+    if (idle_calls_ == most_idle_calls) finish(is_waiting_ ? ending::blocked : ending::endless);
   }
 
   void collect(bool whole) {
@@ -464,7 +468,7 @@ class session {
         if (good) random_call(trial);
       }
       if (good) {
-        if (idle_calls_ == most_idle_calls) finish(is_waiting_ ? ending::blocked : ending::endless);
+        end_if_idle();
         continue;
       }
       if (any_blocked) random_call(blocked_trial);  // which does not return: a call that is never done
