@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <llvm/ADT/APInt.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "emit/text.hpp"
@@ -64,7 +65,11 @@ void expressions::choose_inlined() {
   for (node_id id = 0; id < count; ++id) {
     const node& n = g_.nodes[id];
     const bool here = s_.stage[id] == settled || (use_stage[id] == s_.stage[id] && plan_.waits[id].empty());
-    const bool single = use_count[id] == 1 && n.name.empty() && !needs_name[id];
+    // Copies of flip-flops are divided among nodes: inside another one's text the node would name that one's copy.
+    const bool names_copies = std::any_of(n.operands.begin(), n.operands.end(), [&](node_id operand) {
+      return plan_.value_copies.contains({operand, s_.stage[id]});
+    });
+    const bool single = use_count[id] == 1 && n.name.empty() && !needs_name[id] && !names_copies;
     const auto is_plain = [&](node_id value) {
       return g_.nodes[value].kind != operation::constant && !inlined_[value];
     };

@@ -177,6 +177,24 @@ copies divide_readers(std::vector<std::pair<schedule::reader, double>>& readers,
   return divided;
 }
 
+/// The loads that synthesis makes resets of flip-flops: the condition of a choice between a value and 0 that nothing
+/// but flip-flops takes.
+std::vector<char> find_resets(const graph& g, const schedule::result& s, const std::vector<schedule::load>& loads) {
+  const auto is_zero = [&](node_id id) {
+    return g.nodes[id].kind == operation::constant && g.nodes[id].value.isZero();
+  };
+  std::vector<char> ends_in_flip_flops(g.nodes.size(), 1);
+  for (const schedule::load& l : loads)
+    if (l.enables || (l.by < g.nodes.size() && s.stage[l.by] <= s.stage[l.value])) ends_in_flip_flops[l.value] = 0;
+  std::vector<char> resets;
+  for (const schedule::load& l : loads) {
+    const bool chooses = l.by < g.nodes.size() && g.nodes[l.by].kind == operation::select &&
+                         g.nodes[l.by].operands[0] == l.value && ends_in_flip_flops[l.by] != 0;
+    resets.push_back(chooses && (is_zero(g.nodes[l.by].operands[1]) || is_zero(g.nodes[l.by].operands[2])) ? 1 : 0);
+  }
+  return resets;
+}
+
 /// Copies of flip-flops with many readers. The stage before feeds every copy, and has copies for that where needed.
 void plan_copies(const graph& g, const schedule::delay_model& model, const schedule::result& s, plan& p) {
   const unsigned most = model.parameters().most_readers;
@@ -184,16 +202,23 @@ void plan_copies(const graph& g, const schedule::delay_model& model, const sched
   using readers = std::vector<std::pair<schedule::reader, double>>;
   std::map<std::pair<node_id, int>, readers> of_value, of_condition;
   const auto count = static_cast<schedule::reader>(g.nodes.size());
-  // A RAM stands by itself: as an input of any kind, not as one flip-flop of a slice.
-  const double enables_a_ram = static_cast<double>(model.parameters().most_enabled) / most;
-  const auto enables = [&](const schedule::load& l) { return l.by < count ? l.inputs * enables_a_ram : l.inputs; };
-  for (const schedule::load& l : schedule::find_loads(g, model)) {
+  // An enable and a reset serve whole slices. A RAM stands by itself: as an input of any kind, not as one flip-flop of
+  // a slice.
+  const double slices = static_cast<double>(model.parameters().most_enabled) / most;
+  const auto enables = [&](const schedule::load& l) { return l.by < count ? l.inputs * slices : l.inputs; };
+  const std::vector<schedule::load> loads = schedule::find_loads(g, model);
+  const std::vector<char> resets = find_resets(g, s, loads);
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const schedule::load& l = loads[i];
     const int stage = l.by < count ? s.stage[l.by] : s.register_update[l.by - count];
     if (s.stage[l.value] == settled || stage == settled || stage <= s.available[l.value]) continue;
     const bool is_condition = l.enables && has_update_bit(g, s, l.value, stage);
-    if (g.nodes[l.value].width <= widest)
-      (is_condition ? of_condition : of_value)[{l.value, stage}].emplace_back(l.by,
-                                                                              is_condition ? enables(l) : l.inputs);
+    if (g.nodes[l.value].width > widest) continue;
+    if (is_condition) {
+      of_condition[{l.value, stage}].emplace_back(l.by, enables(l));
+    } else {
+      of_value[{l.value, stage}].emplace_back(l.by, resets[i] != 0 ? l.inputs / slices : l.inputs);
+    }
   }
   std::vector<readers> of_valid(p.last_valid + 1);
   for (auto& [place, here] : of_condition) {

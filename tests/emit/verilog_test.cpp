@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <map>
+#include <regex>
 
 #include "dataflow/random_graph.hpp"
 #include "example_graphs.hpp"
@@ -43,6 +45,7 @@ std::vector<example> examples() {
   add(make_long_wait(12));
   add(make_long_wait(60));
   all.back().name = "longer_wait";
+  add(make_cleared_levels(20));
   add(make_many_readers(40));
   add(make_small_memory());
   add(make_late_write(20));
@@ -317,6 +320,25 @@ TEST(make_plan, gives_many_readers_copies_of_their_flip_flop) {
   const emit::plan plain = emit::make_plan(few, model, schedule::make_schedule(few, model, {}));
   EXPECT_TRUE(plain.value_copies.empty());
   EXPECT_EQ(plain.spare_bits, 0u);
+}
+
+TEST(emit_verilog, divides_readers_among_the_copies_that_were_made_for_them) {
+  const schedule::delay_model model("ecp5");
+  constexpr unsigned levels = 96;
+  const graph g = make_cleared_levels(levels);
+  const schedule::result s = schedule::make_schedule(g, model, {});
+  const std::string verilog = emit::emit_verilog(g, model, s);
+  std::map<std::string, unsigned> clears;  // by the flip-flop that the choice names
+  const std::regex choice(R"((\w+) \? \w+ : 16'd0;)");
+  for (std::sregex_iterator at(verilog.begin(), verilog.end(), choice), end; at != end; ++at) ++clears[(*at)[1]];
+  // A clear serves whole slices, so that a copy clears three times as many bits as it could drive gates.
+  EXPECT_LE(clears.size(), levels * 16 / model.parameters().most_enabled * 5 / 4);
+  unsigned total = 0;
+  for (const auto& [name, count] : clears) {
+    EXPECT_LE(count * 16, model.parameters().most_enabled + 16) << name;
+    total += count;
+  }
+  EXPECT_EQ(total, levels);
 }
 
 TEST(make_plan, brings_early_conditions_to_rams_without_a_gate) {

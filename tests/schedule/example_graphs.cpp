@@ -170,6 +170,25 @@ graph make_many_readers(unsigned levels) {
   return b.g;
 }
 
+graph make_cleared_levels(unsigned levels) {
+  graph_builder b("cleared_levels");
+  const auto in = b.stream("in", true, 16);
+  const auto out = b.stream("out", false, 16);
+  const node_id one = b.always();
+  const node_id x = b.read(in, one);
+  const node_id inside = b.slice(x, 15, 1);
+  node_id late = x;
+  for (unsigned i = 0; i < 6; ++i) late = b.sum(b.binary(operation::multiply, late, late), x);
+  node_id all = late;
+  for (unsigned i = 0; i < levels; ++i) {
+    const auto [level, value] = b.state("level" + std::to_string(i), 16, i);
+    b.set(level, b.select(inside, b.sum(late, b.constant(16, i)), b.constant(16, 0)), one);
+    all = b.binary(operation::bit_xor, all, value);
+  }
+  b.write(out, one, all);
+  return b.g;
+}
+
 graph make_small_memory() {
   graph_builder b("small_memory");
   const auto in = b.stream("in", true, 12);

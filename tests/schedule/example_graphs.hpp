@@ -24,6 +24,8 @@ graph make_calls();
 graph make_long_wait(unsigned chain);
 /// `levels` sums, of which one condition chooses the terms and another one enables most: both have many readers.
 graph make_many_readers(unsigned levels);
+/// `levels` registers that one bit, known long before, clears.
+graph make_cleared_levels(unsigned levels);
 /// Small RAM (LUT RAM) and a constant table past whose end addresses go.
 graph make_small_memory();
 /// A RAM of `rams` times 18 bits whose words are long in coming, long after the condition under which they are written.
