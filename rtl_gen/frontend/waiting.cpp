@@ -130,12 +130,29 @@ class answered_process {
     return loop != nullptr && !is_of_calls(*loop);
   }
 
+  /// Whether a variable of the source's endless loop around the question has another value in the next pass.
+  [[nodiscard]] bool changes_a_variable(const CallInst* question) const {
+    if (!is_in_a_loop(question)) return false;
+    const BasicBlock* const start = mark_of(question)->getParent();
+    llvm::SmallPtrSet<const BasicBlock*, 16> on_the_way, after;
+    for (const BasicBlock* block : blocks_from(start, false)) on_the_way.insert(block);
+    for (const BasicBlock* block : blocks_from(start, true)) {
+      on_the_way.insert(block);
+      after.insert(block);
+    }
+    for (const llvm::PHINode& variable : loops_.getLoopFor(start)->getHeader()->phis())
+      for (const BasicBlock* last : variable.blocks())
+        if (after.contains(last) && !is_kept(variable, variable.getIncomingValueForBlock(last), on_the_way))
+          return true;
+    return false;
+  }
+
   /// With all answers no: whether what the process does from one question to the next is the same whether or not they
   /// are in one call. `stays`: the answer yes leaves no loop.
   [[nodiscard]] bool keeps_nothing(const CallInst* question, bool stays) const {
     const CallInst* const mark = mark_of(question);
     if (mark == nullptr) return true;
-    if (!ends_with_the_call(*mark)) return false;
+    if (!ends_with_the_pass(*mark, stays)) return false;
     if (stays || !is_in_a_loop(question)) return true;
     // `while (!in.empty())`: natively a new call, with other arguments and new variables; in hardware the same one.
     return std::none_of(llvm::inst_begin(*copy_), llvm::inst_end(*copy_), takes_argument) &&
@@ -189,11 +206,29 @@ class answered_process {
     });
   }
 
-  /// Not in a loop of the source that counts, or keeps something from one pass to the next. From call to call nothing
-  /// is kept but state: a variable that is not written on every way has no value then.
-  [[nodiscard]] bool ends_with_the_call(const CallInst& mark) const {
+  /// Not in a loop of the source that counts or ends, nor in one that the answer yes leaves and that keeps something
+  /// from one pass to the next. From call to call nothing is kept but state: a variable that is not written on every
+  /// way has no value then.
+  [[nodiscard]] bool ends_with_the_pass(const CallInst& mark, bool stays) const {
     const llvm::Loop* const loop = loops_.getLoopFor(mark.getParent());
-    return loop == nullptr || (never_ends(*loop) && (is_of_calls(*loop) || loop->getHeader()->phis().empty()));
+    return loop == nullptr || (never_ends(*loop) && (stays || is_of_calls(*loop) || loop->getHeader()->phis().empty()));
+  }
+
+  /// Whether `value`, with which a pass ends that led over these blocks, is what the variable was when it began.
+  [[nodiscard]] static bool is_kept(const llvm::PHINode& variable, const llvm::Value* value,
+                                    const llvm::SmallPtrSetImpl<const BasicBlock*>& on_the_way) {
+    llvm::SmallPtrSet<const llvm::Value*, 16> seen{&variable};
+    std::vector<const llvm::Value*> pending{value};
+    while (!pending.empty()) {
+      const llvm::Value* const one = pending.back();
+      pending.pop_back();
+      if (!seen.insert(one).second) continue;
+      const auto* const joined = llvm::dyn_cast<llvm::PHINode>(one);
+      if (joined == nullptr || !on_the_way.contains(joined->getParent())) return false;
+      for (const BasicBlock* from : joined->blocks())
+        if (on_the_way.contains(from)) pending.push_back(joined->getIncomingValueForBlock(from));
+    }
+    return true;
   }
 
   /// The blocks of the same call that can come before, or after, with `start`.
@@ -251,6 +286,9 @@ void wait_instead_of_asking(llvm::Function& process, analysis_managers& managers
     if (const Instruction* const effect = with_yes.effect_around(question))
       refuse_question(*question, fmt::format("since line {} does something even when the stream {}",
                                              place_of(*effect).line, asks_empty(*question) ? "is empty" : "is full"));
+    if (with_yes.changes_a_variable(question))
+      refuse_question(*question, fmt::format("since a variable of the loop changes even when the stream {}",
+                                             asks_empty(*question) ? "is empty" : "is full"));
     if (with_yes.is_in_a_loop(question)) in_loops.insert(question);
   }
   {
