@@ -71,12 +71,13 @@ function(epiline_verilate target)
   endif()
   set(archive ${folder}/V${target}__ALL.a)
   # Verilator's own makefile compiles the model: the number of files it splits the model into is known only when it ran.
+  # Few files: each of them reads the whole model's header, which takes longer than to compile its functions.
   add_custom_command(
     OUTPUT ${archive}
     BYPRODUCTS ${folder}/V${target}.h
     COMMAND ${CMAKE_COMMAND} -E rm -rf ${folder}
     COMMAND ${EPILINE_VERILATOR} --cc --quiet-exit --no-timing -O3 --x-assign fast --x-initial unique --noassert
-            --output-split 8000 --output-split-cfuncs 500 -Wno-UNOPTFLAT ${lint} ${arg_OPTIONS}
+            --output-split 200000 --output-split-cfuncs 500 -Wno-UNOPTFLAT ${lint} ${arg_OPTIONS}
             --top-module ${arg_TOP} --prefix V${target} --Mdir ${folder} ${arg_VERILOG}
     COMMAND ${EPILINE_MAKE} --silent -C ${folder} -f V${target}.mk -j2 V${target}__ALL.a
             CXX=${CMAKE_CXX_COMPILER} AR=${CMAKE_AR} VM_PARALLEL_BUILDS=1 CFG_CXXFLAGS_STD=-std=c++20
