@@ -163,8 +163,18 @@ void problem::add_registers(int interval, std::vector<constraint>& constraints) 
   }
 }
 
+/// Clocks from the beginning of an iteration to each node at least, by the latencies on its way.
+std::vector<int> problem::earliest() const {
+  std::vector<int> clocks(g_.nodes.size(), 0);
+  for (node_id id = 0; id < g_.nodes.size(); ++id)
+    for (const node_id operand : g_.nodes[id].operands)
+      if (!settled_[operand]) clocks[id] = std::max(clocks[id], clocks[operand] + latency_[operand]);
+  return clocks;
+}
+
 /// Writes after the reads of the same iteration and before those that come to the word again.
 void problem::add_memories(int interval, bool apart, std::vector<constraint>& constraints) const {
+  const std::vector<int> clocks = earliest();
   for (std::size_t m = 0; m < accesses_.size(); ++m) {
     const memory_accesses& a = accesses_[m];
     const int window = static_cast<int>(std::min(g_.memories[m].distance, 1u << 20)) * interval - 1;
@@ -175,10 +185,11 @@ void problem::add_memories(int interval, bool apart, std::vector<constraint>& co
       }
       if (write != a.writes[0]) equal(constraints, of_node(a.writes[0]), of_node(write), reason::memory);
     }
-    // Reads of one address share one port of the RAM.
+    // Reads of one address share one port of the RAM, unless one of them may hang on what another one reads.
     for (std::size_t i = 1; i < a.reads.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         if (g_.nodes[a.reads[i]].operands[0] != g_.nodes[a.reads[j]].operands[0]) continue;
+        if (clocks[a.reads[i]] != clocks[a.reads[j]]) continue;
         equal(constraints, of_node(a.reads[j]), of_node(a.reads[i]), reason::memory);
         break;
       }

@@ -53,6 +53,7 @@ class problem {
   void find_issue_cone();
   void add_nodes(std::vector<constraint>& constraints) const;
   void add_registers(int interval, std::vector<constraint>& constraints) const;
+  [[nodiscard]] std::vector<int> earliest() const;
   void add_memories(int interval, bool apart, std::vector<constraint>& constraints) const;
 
   const dataflow::graph& g_;
