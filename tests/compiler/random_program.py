@@ -9,7 +9,8 @@ matters.
 
 Programs come in two classes. In a "fast" one (6 ns, or the smallest period possible) no loop-carried value feeds back through more than one small operation, as
 people write kernels for a real clock; everything else may be as deep as it likes. In a "slow" one anything may feed back into
-anything, and the clock is slow enough to allow it. Every sixth program is a network of processes (DATAFLOW).
+anything, and the clock is slow enough to allow it. Every sixth program is a network of processes
+(DATAFLOW, or tasks). Some programs ask whether there are tokens before they read.
 """
 
 import pathlib

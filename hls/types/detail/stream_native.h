@@ -62,7 +62,8 @@ class tasks_beside {
  public:
   /// Until the stream has a token, or nobody can go on.
   virtual void wait_for(const stream_base& s) = 0;
-  /// In a task: the others once. Outside: all, until the stream has a token (null: until nobody can go on).
+  /// In a task, which finds the stream empty or full: the others once. Outside: all, until the stream has a token
+  /// (null: until nobody can go on).
   virtual void let_run(const stream_base* s) = 0;
 
  protected:
@@ -98,7 +99,10 @@ class stream_base {
   /// The depth; of a stream that says none, the largest std::size_t.
   std::size_t capacity() const { return depth_ == 0 ? std::numeric_limits<std::size_t>::max() : depth_; }
   bool empty() const { return written_ == read_; }
-  bool full() const { return depth_ != 0 && size() >= depth_; }
+  bool full() const {
+    if (is_full() && tasks != nullptr) tasks->let_run(this);
+    return is_full();
+  }
   std::uint64_t tokens_written() const { return written_; }
   std::uint64_t tokens_read() const { return read_; }
   /// The largest fill so far.
@@ -118,6 +122,7 @@ class stream_base {
     stream_registry::instance().remove(this);
   }
 
+  bool is_full() const { return depth_ != 0 && size() >= depth_; }
   /// Somebody else may write a token now.
   void find_token(bool reads) const {
     if (const auto hook = reads ? on_empty_read : on_empty_question; hook != nullptr) hook(*this);

@@ -3,28 +3,55 @@
 from .values import type_name
 
 
-def driver(name, ports, scalars, results, calls, most, packets=None):
-    """The text of a driver that calls the top `name` `calls` times.
+def inputs_of(ports):
+    return [p for p in ports if p["input"]]
 
-    `most`: tokens that wait at each input before a call, at least as many as a call can read; `packets`: the input that
-    gets packets with `last` instead. What is left at the end is taken back.
-    """
-    inputs = [p for p in ports if p["input"]]
-    outputs = [p for p in ports if not p["input"]]
-    lines = ["#include \"drive.hpp\"", f"namespace program_{name} {{", f'#include "{name}.cpp"', "}",
+
+def outputs_of(ports):
+    return [p for p in ports if not p["input"]]
+
+
+def head(name, ports):
+    """The program in a namespace of its own, and the ports of the session."""
+    # What drive.hpp does not include must not come inside a namespace.
+    lines = ['#include "drive.hpp"', '#include "hls_task.h"', f"namespace program_{name} {{", f'#include "{name}.cpp"', "}",
              f"using namespace program_{name};"]
-    for port in inputs + outputs:
+    for port in inputs_of(ports) + outputs_of(ports):
         if port["members"]:
             leaves = ", ".join(f"v.{n}" for n, _, _ in port["members"])
             lines.append(f"EPILINE_LEAVES(program_{name}::{port['struct']}, {leaves});")
     lines.append(f"EPILINE_DRIVER({name}) {{")
-    for port in inputs:
+    for port in inputs_of(ports):
         lines.append(f'  auto& {port["name"]} = s.input<{port["type"]}>("{port["name"]}");')
-    for port in outputs:
+    for port in outputs_of(ports):
         lines.append(f'  auto& {port["name"]} = s.output<{port["type"]}>("{port["name"]}");')
+    return lines
+
+
+# What an input gets whose tokens come one by one.
+TOKENS = 60
+
+
+def driver(name, ports, scalars, results, calls, most, packets=None, asked=()):
+    """The text of a driver that calls the top `name` `calls` times.
+
+    `most`: tokens that wait at each input before a call, at least as many as a call can read; `packets`: the input that
+    gets packets with `last` instead. What is left at the end is taken back. `asked`: inputs that are asked whether they
+    have tokens: these get them one by one, so that many calls find nothing, and then it is called until all is done.
+    """
+    inputs, outputs = inputs_of(ports), outputs_of(ports)
+    lines = head(name, ports)
+    for port in asked:
+        lines.append(f"  int {port['name']}_left = {TOKENS};")
+    if asked:  # an output that is full delays a call by one
+        calls = 4 * TOKENS
     lines.append(f"  for (int call = 0; call < {calls}; ++call) {{")
     for port in inputs:
-        if port is packets:
+        if port in asked:
+            more = f"{port['name']}_left"
+            lines.append(f"    for (int i = call < {TOKENS} ? s.chance(60) : {more}; i > 0 && {more} > 0; --i, --{more})")
+            lines.append(f"      {port['name']}.fill_up({port['name']}.stream.size() + 1);")
+        elif port is packets:
             lines.append("    const auto beats = s.number(1, 12);")
             lines.append("    for (int i = 0; i < beats; ++i) {")
             lines.append(f'      auto beat = s.any<{port["type"]}>();')
@@ -52,5 +79,23 @@ def driver(name, ports, scalars, results, calls, most, packets=None):
     lines.append("  }")
     for port in inputs:
         lines.append(f"  {port['name']}.take_back();")
+    lines.append("}")
+    return "\n".join(lines) + "\n"
+
+
+def driver_of_tasks(name, ports):
+    """The text of a driver of a top made of tasks, which keep their streams for good: these outlive the session."""
+    lines = head(name, ports)
+    for port in ports:
+        lines.append(f"  static hls::stream<{port['type']}> held_{port['name']};")
+    arguments = ", ".join(f"held_{p['name']}" for p in inputs_of(ports) + outputs_of(ports))
+    lines.append(f"  for (int call = 0; call < {TOKENS}; ++call) {{")
+    for port in inputs_of(ports):
+        lines.append(f"    {port['name']}.fill_up(1);")
+        lines.append(f"    held_{port['name']}.write({port['name']}.stream.read());")
+    lines += [f"    if (s.chance(50)) {name}({arguments});", "    if (s.chance(20)) hls::run_tasks();", "  }",
+              f"  {name}({arguments});", "  hls::run_tasks();"]
+    for port in outputs_of(ports):
+        lines.append(f"  while (!held_{port['name']}.empty()) {port['name']}.stream.write(held_{port['name']}.read());")
     lines.append("}")
     return "\n".join(lines) + "\n"

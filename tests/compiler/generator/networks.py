@@ -1,8 +1,8 @@
-"""Random tops with DATAFLOW: two to five processes joined by streams, in which ways part and meet again."""
+"""Random tops of two to five processes (DATAFLOW, or tasks) joined by streams, in which ways part and meet again."""
 
 import random
 
-from .drivers import driver
+from .drivers import driver, driver_of_tasks
 from .programs import INCLUDES, Body, struct_texts
 from .values import type_name
 
@@ -40,8 +40,20 @@ class Network:
         body.declare_state(shape, 0.15)
         inputs = [p for p in ports if p["input"]]
         outputs = [p for p in ports if not p["input"]]
-        if shape == "call":
+        if shape == "endless":
+            self.hit("endless loop")
+            body.emit(r.choice(["while (true) {", "for (;;) {", "while (1) {"]))
+            body.loop_pragma()
+            body.indent += 1
+        if shape in ("call", "endless"):
+            # Tasks wait natively, too; others are called in turn, and must not read what is not there.
+            asks = self.asks and (not self.tasks or r.random() < 0.5)
+            closing = body.ask(inputs, outputs, "return" if shape == "call" else "continue") if asks else []
             body.iteration(inputs, outputs, [], [])
+            body.end_of_question(closing)
+            if shape == "endless":
+                body.indent -= 1
+                body.emit("}")
         else:
             body.emit("for (int i = 0; i < 4 * rows; ++i) {")
             body.loop_pragma()
@@ -52,7 +64,9 @@ class Network:
 
     def generate(self):
         r = self.r
-        shape = r.choices(["counted", "call"], [75, 25])[0]
+        shape = r.choices(["counted", "call"], [60, 40])[0]
+        self.tasks = shape == "call" and r.random() < 0.5
+        self.asks = shape == "call" and r.random() < 0.6
         maker = Body(self.seed, r, self.fast, None, self.features)
         self.palette = maker.palette = [maker.width() for _ in range(4)]
         count = r.choices([2, 3, 4, 5], [45, 30, 15, 10])[0]
@@ -115,26 +129,39 @@ class Network:
         for process in range(count):
             name = f"process{process}"
             taken = scalars if process == 0 else scalars[:1] + [s for s in scalars[1:] if r.random() < 0.5]
-            text += self.process(name, ports[process], taken, shape)
-            calls.append(f"  {name}({', '.join([p['name'] for p in ports[process]] + [s[0] for s in taken])});")
+            form = "endless" if self.tasks and r.random() < 0.4 else shape
+            text += self.process(name, ports[process], taken, form)
+            arguments = ", ".join([p["name"] for p in ports[process]] + [s[0] for s in taken])
+            calls.append(f"  hls_thread_local hls::task task{process}({name}, {arguments});" if self.tasks else
+                         f"  {name}({arguments});")
+        # What a call leaves in a stream is there in the next one.
+        keyword = "hls_thread_local " if self.tasks else "static " if self.asks else ""
+        if self.tasks:
+            self.hit("tasks")
         declarations = []
         for port, _ in streams:
             least = SKEW * count if uneven else 0
             depth = r.choice([None, None, 1, 2, 3, 8, 17, 64]) if not uneven else r.choice([least, least + 7, 64])
             if depth is None:
-                declarations.append(f"  hls::stream<{port['type']}> {port['name']}(\"{port['name']}\");")
+                declarations.append(f"  {keyword}hls::stream<{port['type']}> {port['name']}(\"{port['name']}\");")
             elif r.random() < 0.5:
                 self.hit("depth in the type")
-                declarations.append(f"  hls::stream<{port['type']}, {depth}> {port['name']};")
+                declarations.append(f"  {keyword}hls::stream<{port['type']}, {depth}> {port['name']};")
             else:
                 self.hit("pragma STREAM depth")
-                declarations.append(f"  hls::stream<{port['type']}> {port['name']};")
+                declarations.append(f"  {keyword}hls::stream<{port['type']}> {port['name']};")
                 declarations.append(f"#pragma HLS STREAM variable={port['name']} depth={depth}")
         parameters = [f"hls::stream<{p['type']}>& {p['name']}" for p in top if p["input"]]
         parameters += [f"hls::stream<{p['type']}>& {p['name']}" for p in top if not p["input"]]
         parameters += [f"{t[0]} {n}" for n, t, _ in scalars]
         program = [f"// Written by random_program.py, seed {self.seed}.",
-                   f"// epiline-hls: {'' if self.fast else '--clock 200ns'}", *INCLUDES, *structs, *text,
-                   f"void {self.name}({', '.join(parameters)}) {{", "#pragma HLS DATAFLOW", *declarations, *calls, "}"]
-        return "\n".join(program) + "\n", driver(self.name, top, scalars, [], 60 if shape == "call" else 8,
-                                                 2 if shape == "call" else 33)
+                   f"// epiline-hls: {'' if self.fast else '--clock 200ns'}", *INCLUDES[:-1], '#include "hls_task.h"', "",
+                   *structs, *text,
+                   f"void {self.name}({', '.join(parameters)}) {{", *([] if self.tasks else ["#pragma HLS DATAFLOW"]),
+                   *declarations, *calls, "}"]
+        if self.tasks:
+            drive = driver_of_tasks(self.name, top)
+        else:
+            drive = driver(self.name, top, scalars, [], 60 if shape == "call" else 8, 2 if shape == "call" else 33,
+                           asked=[p for p in top if p["input"]] if self.asks else ())
+        return "\n".join(program) + "\n", drive

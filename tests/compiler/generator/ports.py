@@ -40,7 +40,11 @@ class Ports(Memories):
     def read_port(self, port, name):
         r = self.r
         style = r.random()
-        if style < 0.5:
+        asked, leave = self.leave_unless_read
+        if port is asked:
+            self.emit(f"{port['type']} {name};")
+            self.emit(f"if (!{port['name']}.read_nb({name})) {leave};")
+        elif style < 0.5:
             self.emit(f"const {port['type']} {name} = {port['name']}.read();")
         elif style < 0.75:
             self.emit(f"{port['type']} {name}; {port['name']} >> {name};")

@@ -3,7 +3,7 @@
 import random
 
 from .drivers import driver
-from .ports import Ports
+from .questions import Questions
 from .values import C_TYPES, Variable, type_name
 
 INCLUDES = ['#include "ap_axi_sdata.h"', '#include "ap_int.h"', '#include "hls_stream.h"', ""]
@@ -11,7 +11,7 @@ INCLUDES = ['#include "ap_axi_sdata.h"', '#include "ap_int.h"', '#include "hls_s
 SMALL = 0.75
 
 
-class Body(Ports):
+class Body(Questions):
     """The body of one function: state, loops, iterations."""
 
     def __init__(self, seed, stream_of_numbers, fast, palette, features):
@@ -37,6 +37,7 @@ class Body(Ports):
         self.variable_divisions = 0
         self.ram = None
         self.delay = None
+        self.leave_unless_read = (None, "")  # the input that an iteration begins with by read_nb, and how it ends without
 
     def add_scalars(self, scalars):
         self.scalars = scalars
@@ -114,6 +115,8 @@ class Program(Body):
         inputs = [self.make_port(f"in{i}", True, axis=shape == "until_last" and i == 0)
                   for i in range(1 if self.small else r.choice([1, 1, 1, 2, 2, 3]))]
         outputs = [self.make_port(f"out{i}", False, axis=r.random() < 0.2) for i in range(1 if self.small else r.choice([1, 1, 1, 2, 3]))]
+        # Natively a call that finds nothing is made again: one with scalars would have taken them.
+        asked = [p for p in inputs if p is inputs[0] or r.random() < 0.5] if shape == "call" and r.random() < 0.4 else []
         scalars = []
         if shape in ("counted", "nested", "while"):
             scalars.append(("rows", r.choice([("ap_uint<5>", 5, False), ("int", 32, True), ("unsigned char", 8, False),
@@ -121,7 +124,7 @@ class Program(Body):
         if shape == "nested":
             scalars.append(("cols", r.choice([("ap_uint<4>", 4, False), ("unsigned", 32, False), ("short", 16, True)]),
                             (0, 9)))
-        if scalars or r.random() < 0.3:
+        if scalars or (not asked and r.random() < 0.3):
             scalars += self.more_scalars(r.randint(0, 2))
         results = []
         if shape != "call" and r.random() < 0.3:
@@ -134,6 +137,7 @@ class Program(Body):
         self.declare_state(shape)
         if results:
             self.emit(f"{type_name(*results[0][1:])} result = 0;")
+        self.asked = asked
         getattr(self, "loops_" + shape)(inputs, outputs, results)
         if results:
             self.emit("total = result;")
@@ -155,11 +159,13 @@ class Program(Body):
         calls = {"call": 120, "counted": 16, "nested": 8, "until_last": 12, "phases": 5, "packets": 16, "while": 16}
         most = {"call": 2, "counted": 16, "nested": 128, "until_last": 16, "phases": 64, "packets": 20, "while": 16}
         return "\n".join(text) + "\n", driver(self.name, inputs + outputs, scalars, results, calls[shape], most[shape],
-                                              inputs[0] if shape == "until_last" else None)
+                                              inputs[0] if shape == "until_last" else None, asked)
 
     # ---- shapes: the loops around the iterations ----------------------------------------------------------------
     def loops_call(self, inputs, outputs, results):
-        self.iteration(inputs, outputs, inputs[1:], results)
+        closing = self.ask(self.asked, outputs, "return") if self.asked else []
+        self.iteration(inputs, outputs, [p for p in inputs[1:] if p not in self.asked], results)
+        self.end_of_question(closing)
 
     def loops_counted(self, inputs, outputs, results):
         counter_type = self.r.choice(["ap_uint<8>", "int", "unsigned"])
