@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -93,6 +94,14 @@ void write_delay_pointers(module_text& m) {
   }
   m.line("    end");
   m.line("  end");
+  std::set<std::string> copied;
+  for (const delay_line& l : m.plan.lines) {
+    if (l.pointers == 0 || !copied.insert(pointer_name(l, "out")).second) continue;
+    // A clock behind the first ones, so that only flip-flops stand between: what counts is that `in` follows `out`.
+    const unsigned width = bits_for(l.words() - 1);
+    m.write_copy(pointer_name(l, "out"), width, fmt::format("delay_{}_out", l.words()));
+    m.write_copy(pointer_name(l, "in"), width, pointer_name(l, "out"));
+  }
 }
 
 void write_block_reads(module_text& m, int stage) {

@@ -73,12 +73,15 @@ std::string stage_name(std::string_view base, int stage) { return fmt::format("{
 
 std::string copy_name(std::string_view base, std::size_t copy) { return fmt::format("{}_copy{}", base, copy); }
 
+std::string pointer_name(const delay_line& line, std::string_view end) {
+  const std::string name = fmt::format("delay_{}_{}", line.words(), end);
+  return line.pointers == 0 ? name : copy_name(name, line.pointers);
+}
+
 module_names::module_names(const module_design& design) {
   reserve_interface(design);
-  for (const delay_line& l : design.plan.lines) {
-    taken_.insert(fmt::format("delay_{}_in", l.words()));
-    taken_.insert(fmt::format("delay_{}_out", l.words()));
-  }
+  for (const delay_line& l : design.plan.lines)
+    for (const char* end : {"in", "out"}) taken_.insert(pointer_name(l, end));
   for (const dataflow::port& port : design.g.ports) ports.push_back(fresh_port(port.name, design.options.axi_lite));
   for (const dataflow::register_state& r : design.g.registers)
     registers.push_back(fresh(r.name.empty() ? "state" : r.name));

@@ -38,5 +38,7 @@ class module_names {
 [[nodiscard]] std::string stage_name(std::string_view base, int stage);
 /// One of the copies of the flip-flops `base`.
 [[nodiscard]] std::string copy_name(std::string_view base, std::size_t copy);
+/// A pointer of a delay line: where the next word goes ("in"), or which one is read ("out").
+[[nodiscard]] std::string pointer_name(const delay_line& line, std::string_view end);
 
 }  // namespace epiline::emit

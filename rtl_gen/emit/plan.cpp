@@ -104,6 +104,26 @@ bool has_update_bit(const graph& g, const schedule::result& s, node_id condition
          s.available[condition] < stage - 1;
 }
 
+/// Lines of one length share their pointers, but only as many of them as one flip-flop drives well.
+void divide_pointers(const schedule::delay_model& model, plan& p) {
+  const schedule::delay_parameters& limits = model.parameters();
+  std::map<int, std::pair<std::size_t, unsigned>> by_words;  // the last copy, and the RAMs that hang on it
+  for (delay_line& line : p.lines) {
+    const auto words = static_cast<unsigned>(line.words());
+    const unsigned rams = line.storage == storage_kind::block
+                              ? model.blocks(words, line.width)
+                              : (line.width + 3) / 4 * ((words + 15) / 16);  // of 16 words and 4 bits
+    auto& [copy, used] = by_words[line.words()];
+    if (used > 0 && used + rams > limits.most_enabled) {
+      ++copy;
+      used = 0;
+      p.spare_bits += 2 * std::bit_width(words - 1);
+    }
+    used += rams;
+    line.pointers = copy;
+  }
+}
+
 void plan_waits(const graph& g, const schedule::delay_model& model, const schedule::result& s,
                 const delay_line_limits& limits, plan& p) {
   std::vector<std::vector<int>> taps(g.nodes.size());
@@ -156,6 +176,7 @@ void plan_waits(const graph& g, const schedule::delay_model& model, const schedu
     }
   }
   for (const delay_line& line : p.lines) p.copy_bits += line.width;
+  divide_pointers(model, p);
 }
 
 /// Divides readers, in their order, among as few flip-flops as `most` inputs for each need.

@@ -35,6 +35,7 @@ struct delay_line {
   unsigned width = 0;
   schedule::storage_kind storage = schedule::storage_kind::distributed;
   std::vector<dataflow::node_id> values;  // low bits first
+  std::size_t pointers = 0;               // which copy of the pointers of its length
 
   [[nodiscard]] int clocks() const { return to - from; }
   /// Words of the circular memory: the remaining clocks pass in the registers after it.

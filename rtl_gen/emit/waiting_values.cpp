@@ -71,8 +71,8 @@ void write_delay_lines(module_text& m, int stage, move_list& moves) {
       target += stage_name(m.names.nodes[l.values[v]], stage);
     }
     if (l.values.size() > 1) target = "{" + target + "}";
-    moves.emplace_back(fmt::format("{}[delay_{}_in]", name, l.words()), data);
-    const std::string word = fmt::format("{}[delay_{}_out]", name, l.words());
+    moves.emplace_back(fmt::format("{}[{}]", name, pointer_name(l, "in")), data);
+    const std::string word = fmt::format("{}[{}]", name, pointer_name(l, "out"));
     if (block) {
       moves.emplace_back(name + "_q", word);
       moves.emplace_back(target, name + "_q");

@@ -53,10 +53,11 @@ std::set<std::string> declared_names(const std::string& verilog) {
 }
 
 TEST_F(signals, are_all_explained) {
-  for (const graph& g : std::vector<graph>{
-           make_counter(), make_adder_pipeline(), make_filter(), make_histogram(4), make_conditional_streams(),
-           make_accumulator(16, 2), make_calls(), make_long_wait(40), make_many_readers(80), make_small_memory(),
-           make_two_writes(true), make_two_writes(false), make_all_operations(), make_block_matcher(4)}) {
+  for (const graph& g :
+       std::vector<graph>{make_counter(), make_adder_pipeline(), make_filter(), make_histogram(4),
+                          make_conditional_streams(), make_accumulator(16, 2), make_calls(), make_long_wait(40),
+                          make_many_waits(5), make_many_readers(80), make_small_memory(), make_two_writes(true),
+                          make_two_writes(false), make_all_operations(), make_block_matcher(4)}) {
     const std::string verilog = write(g);
     const std::set<std::string> names = declared_names(verilog);
     EXPECT_GT(names.size(), 10u) << g.name;

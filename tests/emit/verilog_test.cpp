@@ -46,6 +46,7 @@ std::vector<example> examples() {
   add(make_long_wait(60));
   all.back().name = "longer_wait";
   add(make_cleared_levels(20));
+  add(make_many_waits(5));
   add(make_many_readers(40));
   add(make_small_memory());
   add(make_late_write(20));
@@ -273,6 +274,19 @@ TEST(make_plan, puts_long_waits_into_ram) {
        emit::make_plan(shorter, small, schedule::make_schedule(shorter, small, {.period = 12})).lines) {
     EXPECT_EQ(line.storage, schedule::storage_kind::block);
   }
+}
+
+TEST(make_plan, gives_pointers_of_many_delay_lines_copies) {
+  const schedule::delay_model model("ecp5");
+  const graph g = make_many_waits(10);
+  const emit::plan p = emit::make_plan(g, model, schedule::make_schedule(g, model, {}));
+  std::map<std::size_t, unsigned> rams;  // of a LUT RAM's 4 bits, by the copy of the pointers that they hang on
+  for (const emit::delay_line& line : p.lines) {
+    ASSERT_EQ(line.storage, schedule::storage_kind::distributed);
+    rams[line.pointers] += line.width / 4;
+  }
+  EXPECT_EQ(rams.size(), 3u);
+  for (const auto& [copy, count] : rams) EXPECT_LE(count, model.parameters().most_enabled) << copy;
 }
 
 TEST(emit_verilog, leaves_registers_that_say_so_as_they_are_at_a_reset) {

@@ -152,6 +152,18 @@ graph make_long_wait(unsigned chain) {
   return b.g;
 }
 
+graph make_many_waits(unsigned streams) {
+  graph_builder b("many_waits");
+  const node_id one = b.always();
+  std::vector<node_id> tokens;
+  for (unsigned i = 0; i < streams; ++i) tokens.push_back(b.read(b.stream("in" + std::to_string(i), true, 64), one));
+  const auto out = b.stream("out", false, 64 * streams);
+  for (unsigned i = 0; i < 8; ++i)
+    tokens[0] = b.sum(tokens[0], b.add(operation::concat, 64, {b.slice(tokens[0], 0, 13), b.slice(tokens[0], 13, 51)}));
+  b.write(out, one, b.add(operation::concat, 64 * streams, tokens));
+  return b.g;
+}
+
 graph make_many_readers(unsigned levels) {
   graph_builder b("many_readers");
   const auto in = b.stream("in", true, 16);
