@@ -139,6 +139,36 @@ OFFER = """
   end
 """
 
+# A delay line gives every word back after its clocks, of those that came when its pointers ran again after a reset; the
+# first iteration comes later. `formal_{n}_K` is what the line was given K clocks ago, of which two bits are watched: the
+# others move in the same assignments.
+DELAY_LINE = """
+  reg [1:0] {history};
+  reg [{pointer}:0] {n}_formal_before;
+  always @(posedge clk) begin
+    formal_{n}_1 <= {source};
+{moves}
+    {n}_formal_before <= {out};
+  end
+  always @* if (formal_started) begin
+    if (formal_age >= {clocks} + 4) assert ({target}[1:0] == formal_{n}_{clocks});
+    // Inside.
+    assert (delay_{words}_out < {words} && {out} < {words});
+    if (!formal_just_reset && formal_age != 0) assert ({into} == {n}_formal_before);
+    if (formal_age > 3) assert ({out} == ({into} == {words} - 1 ? 0 : {into} + 1));
+{kept}
+{read}
+  end
+"""
+AGE = """
+  reg [6:0] formal_age;  // clocks since pointers run
+  always @(posedge clk) formal_age <= rst | resetting ? 7'd0 : formal_age + {6'd0, formal_age != 7'd127};
+  always @* if (formal_started) begin
+    if (formal_age < 3 && !resetting) assert (holding && hold == 3 - formal_age);
+    if (fire) assert (formal_age >= 3);
+  end
+"""
+
 # Stages are empty when the pipeline comes out of a reset: so many clocks does it wait. After an issue it waits until the
 # interval is over: `waits` says which stage holds the iteration that it waits for.
 CONTROL = """
@@ -164,9 +194,8 @@ def with_fifo_properties(verilog):
     return insert(verilog, "epiline_fifo_distributed", FIFO)
 
 
-def with_handshake_properties(verilog, module):
-    """Properties of the issue and of every stream of a module, and how many there are of inputs and outputs."""
-    text = RESET
+def issue_properties(verilog):
+    """Of the issue and the wait after a reset."""
     hold = int(re.search(r"      hold <= \d+'d(\d+);", verilog)[1])
     stages = int(re.search(r"reg \[(\d+):1\] valid\b", verilog)[1])
     drained = "\n".join(f"    if (resetting && hold + {stage} <= {hold}) assert (!formal_stages[{stage}]);"
@@ -175,7 +204,12 @@ def with_handshake_properties(verilog, module):
     waits = "".join(f" || (hold == {interval - stage} && formal_stages[{stage}])" for stage in range(1, interval))
     apart = "\n".join(f"    if (formal_stages[{stage}] && !resetting) assert (!fire && holding && hold == {interval - stage});"
                       for stage in range(1, interval))
-    text += CONTROL.format(stages=stages, hold=hold, drained=drained, waits=waits, apart=apart)
+    return RESET + CONTROL.format(stages=stages, hold=hold, drained=drained, waits=waits, apart=apart)
+
+
+def with_handshake_properties(verilog, module):
+    """Properties of the issue and of every stream of a module, and how many there are of inputs and outputs."""
+    text = issue_properties(verilog)
     outputs = re.findall(r"wire (\w+)_load = ", verilog)
     buffers = re.findall(r"reg \w+_fills_second, (\w+)_reads_second;", verilog)
     inputs = [name for name in buffers if name.removesuffix("_end") not in outputs]
@@ -200,6 +234,25 @@ def with_handshake_properties(verilog, module):
             on_the_way=on_the_way, leaves=leaves, skipped=f" + {name}_skipped" if f"{name}_skipped" in verilog else "",
             valid=f"{name}_word_there", ready=f"{name}_end_ready")
     return insert(verilog, module, text), len(inputs), len(outputs)
+
+
+def with_delay_line_properties(verilog, module):
+    """Properties of the issue and of every delay line of a module, and how many lines there are."""
+    text = issue_properties(verilog) + AGE
+    lines = re.findall(r"    (\w+)\[(delay_(\d+)_in\w*)\] <= (.*);\n    (.*) <= \1\[(\w+)\];(?:\n    (.*) <= \1_q;)?", verilog)
+    for name, into, words, source, target, out, late in lines:
+        words = int(words)
+        clocks = words + (1 if late else 0)
+        pointer = (words - 1).bit_length()
+        kept = "\n".join(f"    if (formal_age >= {age} + 4 && {into} >= {age}) assert ({name}[{into} - {age}][1:0] == formal_{name}_{age});\n"
+                         f"    if (formal_age >= {age} + 4 && {into} < {age}) "
+                         f"assert ({name}[{into} + {words} - {age}][1:0] == formal_{name}_{age});" for age in range(1, words))
+        text += DELAY_LINE.format(
+            n=name, pointer=pointer - 1, words=words, clocks=clocks, into=into, out=out, source=source,
+            target=late or target, kept=kept, history=", ".join(f"formal_{name}_{age}" for age in range(1, clocks + 1)),
+            moves="\n".join(f"    formal_{name}_{age} <= formal_{name}_{age - 1};" for age in range(2, clocks + 1)),
+            read=f"    if (formal_age >= {words} + 4) assert ({target}[1:0] == formal_{name}_{words});" if late else "")
+    return insert(verilog, module, text), len(lines)
 
 
 def prove(verilog, module, parameters=(), cut="", steps=3, bound=8):

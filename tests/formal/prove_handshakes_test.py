@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Streams keep their rules, proved by k-induction: the FIFO between processes, and in generated modules the input buffers,
-the credits and the output FIFOs; and proofs of faulty ones, which must fail (see handshake_properties.py).
+the credits and the output FIFOs; delay lines give every word after its clocks; and proofs of faulty ones, which must fail (see
+handshake_properties.py).
 
   prove_handshakes_test.py EPILINE-HLS
 """
@@ -12,7 +13,7 @@ import sys
 import tempfile
 import unittest
 
-from handshake_properties import prove, with_fifo_properties, with_handshake_properties
+from handshake_properties import prove, with_delay_line_properties, with_fifo_properties, with_handshake_properties
 
 compiler = pathlib.Path(sys.argv.pop(1)).resolve()
 here = pathlib.Path(__file__).resolve().parent
@@ -64,6 +65,14 @@ interval_faults = [
     ("an iteration without its token", r"    & in_there;", "    ;"),
     ("room lost where nothing is written", r"out_skipped <= valid\[1\] & ~\(.*\);", "out_skipped <= 1'b0;"),
 ]
+delay_line_faults = [
+    ("a line in LUT RAM one word too short", r"\(delay_8_out == 3'd7\)", "(delay_8_out == 3'd6)"),
+    ("a pointer that does not follow the other one", r"delay_16_in <= delay_16_out;", "delay_16_in <= delay_16_in;"),
+    ("a copy of one pointer beside the other one", r"\.d\(delay_8_out_copy1\)", ".d(delay_8_out)"),
+    ("a word read through another pointer", r"\[delay_8_out_copy1\]", "[delay_8_out]"),
+    ("a line in block RAM one word too short", r"\(delay_16_out == 4'd15\)", "(delay_16_out == 4'd14)"),
+    ("an issue before the pointers run", r"resetting & \(hold != (\d+)'d4\)", r"resetting & (hold != \1'd2)"),
+]
 
 
 class handshakes(unittest.TestCase):
@@ -72,7 +81,7 @@ class handshakes(unittest.TestCase):
         place = tempfile.TemporaryDirectory()
         cls.addClassCleanup(place.cleanup)
         cls.verilog = {}
-        for name in [*modules, "dataflow_gain"]:
+        for name in [*modules, "waits", "dataflow_gain"]:
             source = next(path for folder in (kernels, here / "modules") if (path := folder / f"{name}.cpp").exists())
             subprocess.run([compiler, source, "--top", name, "-o", place.name, "--quiet"], check=True, capture_output=True)
             cls.verilog[name] = (pathlib.Path(place.name) / f"{name}.v").read_text(encoding="utf-8")
@@ -116,6 +125,21 @@ class handshakes(unittest.TestCase):
                     verilog = self.with_fault(name, pattern, replacement)
                     verdict, output = prove(with_handshake_properties(verilog, name)[0], name, cut="*_data")
                     self.assertIn(verdict, ("refuted", "not inductive"), output[-3000:])
+
+    def prove_delay_lines(self, verilog):
+        verilog, lines = with_delay_line_properties(verilog, "waits")
+        self.assertEqual(lines, 3)
+        return prove(verilog, "waits")
+
+    def test_delay_lines_give_every_word_after_its_clocks(self):
+        verdict, output = self.prove_delay_lines(self.verilog["waits"])
+        self.assertEqual(verdict, "proved", output[-3000:])
+
+    def test_faulty_delay_lines_do_not(self):
+        for fault, pattern, replacement in delay_line_faults:
+            with self.subTest(fault):
+                verdict, output = self.prove_delay_lines(self.with_fault("waits", pattern, replacement))
+                self.assertIn(verdict, ("refuted", "not inductive"), output[-3000:])
 
 
 if __name__ == "__main__":
