@@ -25,6 +25,12 @@ void count(hls::stream<int>& out) {
 void when_there(hls::stream<int>& in, hls::stream<int>& out) {
   if (!in.empty()) out.write(-in.read());
 }
+void twice_while_there_is_room(hls::stream<int>& in, hls::stream<int>& out) {
+  while (true) {
+    if (in.empty() || out.full()) continue;
+    out.write(in.read() * 2);
+  }
+}
 void deal(hls::stream<int>& in, hls::stream<int> (&to)[2]) {
   to[0].write(in.read());
   to[1].write(in.read());
@@ -98,6 +104,16 @@ TEST(hls_task, may_ask_before_it_reads) {
   EXPECT_TRUE(s.out.empty());
   s.in.write(8);
   EXPECT_EQ(s.out.read(), 8);
+}
+
+TEST(hls_task, that_finds_a_stream_full_lets_the_others_run) {
+  streams s;
+  hls::stream<int, 2> narrow("narrow");
+  const hls::task first(twice_while_there_is_room, s.in, narrow);
+  const hls::task second(add<1>, narrow, s.out);
+  for (int i = 0; i < 20; ++i) s.in.write(i);
+  for (int i = 0; i < 20; ++i) ASSERT_EQ(s.out.read(), 2 * i + 1);
+  EXPECT_LE(narrow.peak(), 2u);
 }
 
 TEST(hls_task, that_lacks_a_token_leaves_the_reader_with_the_error) {
