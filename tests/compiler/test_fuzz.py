@@ -163,13 +163,15 @@ class programs(unittest.TestCase):
             program, _, features = random_program.generate(seed)
             met |= {name for name, _ in features}
             widths |= {where.rstrip("su") for _, where in features if where}
-            self.assertEqual("#pragma HLS DATAFLOW" in program, seed % 6 == 5)
+            is_network = "#pragma HLS DATAFLOW" in program or "hls::task " in program
+            self.assertEqual(is_network, seed % 6 == 5)
         wanted = {"+", "-", "*", "/", "%", "/ constant", "&", "|", "^", "<<", ">>", "~", "unary -", "?:", "<", "==", "range",
                   "range =", "bit", "bit =", "concat", "table", "RAM", "RAM with initial contents", "RAM read, changed, written",
                   "RAM part of a word", "switch", "struct", "local array", "early exit", "shape while", "shape phases",
                   "call of a function template", "call of a functor", "call of a lambda", "ways that meet", "processes 5",
                   "pragma RESET off", "pragma UNROLL", "pragma ARRAY_PARTITION", "pragma STREAM depth", "pragma INTERFACE",
-                  "second write in an iteration", "result by reference", "payload struct", "payload AXI"}
+                  "second write in an iteration", "result by reference", "payload struct", "payload AXI", "tasks",
+                  "endless loop", "question empty", "question full", "read_nb"}
         self.assertEqual(wanted - met, set())
         self.assertEqual({"1", "2", "31-33", "63-65", "129-200"} - widths, set())
 
