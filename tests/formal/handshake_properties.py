@@ -140,18 +140,18 @@ OFFER = """
 """
 
 # A delay line gives every word back after its clocks, of those that came when its pointers ran again after a reset; the
-# first iteration comes later. `formal_{n}_K` is what the line was given K clocks ago, of which two bits are watched: the
+# first iteration comes later. `{n}_formal_K` is what the line was given K clocks ago, of which two bits are watched: the
 # others move in the same assignments.
 DELAY_LINE = """
   reg [1:0] {history};
   reg [{pointer}:0] {n}_formal_before;
   always @(posedge clk) begin
-    formal_{n}_1 <= {source};
+    {n}_formal_1 <= {source};
 {moves}
     {n}_formal_before <= {out};
   end
   always @* if (formal_started) begin
-    if (formal_age >= {clocks} + 4) assert ({target}[1:0] == formal_{n}_{clocks});
+    if (formal_age >= {clocks} + 4) assert ({target}[1:0] == {n}_formal_{clocks});
     // Inside.
     assert (delay_{words}_out < {words} && {out} < {words});
     if (!formal_just_reset && formal_age != 0) assert ({into} == {n}_formal_before);
@@ -243,15 +243,14 @@ def with_delay_line_properties(verilog, module):
     for name, into, words, source, target, out, late in lines:
         words = int(words)
         clocks = words + (1 if late else 0)
-        pointer = (words - 1).bit_length()
-        kept = "\n".join(f"    if (formal_age >= {age} + 4 && {into} >= {age}) assert ({name}[{into} - {age}][1:0] == formal_{name}_{age});\n"
-                         f"    if (formal_age >= {age} + 4 && {into} < {age}) "
-                         f"assert ({name}[{into} + {words} - {age}][1:0] == formal_{name}_{age});" for age in range(1, words))
+        # The word of `age` clocks ago stands so many places behind the next one's.
+        kept = "\n".join(f"    if (formal_age >= {age} + 4) assert ({name}[{into} >= {age} ? {into} - {age} : {into} + "
+                         f"{words - age}][1:0] == {name}_formal_{age});" for age in range(1, words))
         text += DELAY_LINE.format(
-            n=name, pointer=pointer - 1, words=words, clocks=clocks, into=into, out=out, source=source,
-            target=late or target, kept=kept, history=", ".join(f"formal_{name}_{age}" for age in range(1, clocks + 1)),
-            moves="\n".join(f"    formal_{name}_{age} <= formal_{name}_{age - 1};" for age in range(2, clocks + 1)),
-            read=f"    if (formal_age >= {words} + 4) assert ({target}[1:0] == formal_{name}_{words});" if late else "")
+            n=name, pointer=(words - 1).bit_length() - 1, words=words, clocks=clocks, into=into, out=out, source=source,
+            target=late or target, kept=kept, history=", ".join(f"{name}_formal_{age}" for age in range(1, clocks + 1)),
+            moves="\n".join(f"    {name}_formal_{age} <= {name}_formal_{age - 1};" for age in range(2, clocks + 1)),
+            read=f"    if (formal_age >= {words} + 4) assert ({target}[1:0] == {name}_formal_{words});" if late else "")
     return insert(verilog, module, text), len(lines)
 
 

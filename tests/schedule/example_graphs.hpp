@@ -22,9 +22,9 @@ graph make_accumulator(unsigned width, unsigned adders);
 graph make_calls();
 /// A value that waits for a long chain of other operations: delay lines. `chain` additions of 32 bits.
 graph make_long_wait(unsigned chain);
-/// `levels` sums, of which one condition chooses the terms and another one enables most: both have many readers.
 /// Tokens of `streams` streams, of 64 bits, that wait for a sum of one of them.
 graph make_many_waits(unsigned streams);
+/// `levels` sums, of which one condition chooses the terms and another one enables most: both have many readers.
 graph make_many_readers(unsigned levels);
 /// `levels` registers that one bit, known long before, clears.
 graph make_cleared_levels(unsigned levels);

@@ -50,7 +50,8 @@ class Network:
             asks = self.asks and (not self.tasks or r.random() < 0.5)
             closing = body.ask(inputs, outputs, "return" if shape == "call" else "continue") if asks else []
             body.iteration(inputs, outputs, [], [])
-            body.end_of_question(closing)
+            for line in closing:
+                body.emit(line)
             if shape == "endless":
                 body.indent -= 1
                 body.emit("}")

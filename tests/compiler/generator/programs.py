@@ -165,7 +165,8 @@ class Program(Body):
     def loops_call(self, inputs, outputs, results):
         closing = self.ask(self.asked, outputs, "return") if self.asked else []
         self.iteration(inputs, outputs, [p for p in inputs[1:] if p not in self.asked], results)
-        self.end_of_question(closing)
+        for line in closing:
+            self.emit(line)
 
     def loops_counted(self, inputs, outputs, results):
         counter_type = self.r.choice(["ap_uint<8>", "int", "unsigned"])

@@ -6,7 +6,7 @@ from .ports import Ports
 class Questions(Ports):
     def ask(self, asked, outputs, leave):
         """Begins an iteration that does nothing unless all inputs of `asked` have tokens; `leave`: the statement that ends
-        it early. Returns what has to stand behind the iteration. The inputs of `asked` are read in every iteration."""
+        it early. Returns the lines that have to stand behind the iteration. The inputs of `asked` are read in every iteration."""
         r = self.r
         if len(asked) == 1 and r.random() < 0.3:
             self.hit("read_nb")
@@ -21,13 +21,7 @@ class Questions(Ports):
         style = r.choice(["one", "each", "inside"])
         if style == "inside":
             self.emit(f"if ({' && '.join('!' + q for q in questions)}) {{")
-            self.indent += 1
             return ["}"]
         for question in [" || ".join(questions)] if style == "one" else questions:
             self.emit(f"if ({question}) {leave};")
         return []
-
-    def end_of_question(self, closing):
-        for line in closing:
-            self.indent -= 1
-            self.emit(line)
