@@ -23,6 +23,7 @@
 #include "frontend/fill_tables.hpp"
 #include "frontend/function_passes.hpp"
 #include "frontend/loops.hpp"
+#include "frontend/overflow.hpp"
 #include "frontend/payload.hpp"
 #include "frontend/pointer_choices.hpp"
 #include "frontend/power_up.hpp"
@@ -392,6 +393,7 @@ lowered_process lower(process_source& source) {
   wait_instead_of_asking(process, managers, source.is_part);
   note_loops_of_pragmas(process);
   split_whole_structs(process);
+  write_out_overflow(process);
   expand_copies(process, unknown_types::kept);
   resolve_pointer_choices(process);
   run_passes(process, managers, early_cleanup());
@@ -425,6 +427,7 @@ lowered_process lower(process_source& source) {
   rotate_loops(process, managers.function);
   managers.function.invalidate(process, llvm::PreservedAnalyses::none());
   run_passes(process, managers, late_cleanup());
+  write_out_overflow(process);  // the last passes that make any are over
   look_ahead(process, managers.function);
   managers.function.invalidate(process, llvm::PreservedAnalyses::none());
   fold_power_up(process);
