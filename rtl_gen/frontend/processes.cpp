@@ -274,7 +274,12 @@ class splitter {
     std::set<std::string> names;
     for (std::size_t i = 0; i < calls_.size(); ++i) {
       llvm::ValueToValueMapTy copies;
-      std::unique_ptr<llvm::Module> module = llvm::CloneModule(module_, copies);
+      // What was inlined and the other processes stay behind, without bodies: nobody calls them in this part.
+      std::set<const llvm::GlobalValue*> needed = {&process_, calls_[i]->getCalledFunction()};
+      for (const llvm::Function* start : start_up_functions(module_)) needed.insert(start);
+      std::unique_ptr<llvm::Module> module = llvm::CloneModule(module_, copies, [&](const llvm::GlobalValue* value) {
+        return !llvm::isa<llvm::Function>(value) || needed.count(value) != 0;
+      });
       pass_shared_variables(shared_, i, copies);
       for (std::size_t other = 0; other < calls_.size(); ++other) {
         if (other == i) continue;
