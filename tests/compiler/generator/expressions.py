@@ -1,6 +1,6 @@
 """Random expressions over ap_int, ap_uint and C integers."""
 
-from .values import C_TYPES, MAX_WIDTH, Value, r_width, type_name, width_class
+from .values import C_TYPES, MAX_WIDTH, Value, type_name, width_class
 
 
 class Expressions:
@@ -17,24 +17,8 @@ class Expressions:
     def emit(self, text):
         self.lines.append("  " * self.indent + text)
 
-    def width(self):
-        r = self.r
-        pick = r.random()
-        if pick < 0.12:
-            return 1
-        if pick < 0.2:
-            return 2
-        if pick < 0.75:
-            return r.randint(3, 16)
-        if pick < 0.85:
-            return r.randint(31, 33)
-        if pick < 0.92:
-            return r.randint(63, 65)
-        if pick < 0.96:
-            return r.randint(17, 48)
-        if pick < 0.985:
-            return r.randint(66, 130)
-        return r.choice([127, 128, 129, r.randint(131, 190), 191, 192, 193, 200])
+    def width_up_to(self, widest):
+        return self.r.choice([min(widest, 16), widest, self.r.choice([w for w in self.palette if w <= widest] or [1])])
 
     def any_type(self):
         return self.r.choice(self.palette), self.r.random() < 0.5
@@ -110,7 +94,7 @@ class Expressions:
 
     def limit(self, value):
         if value.width > MAX_WIDTH:
-            width = self.r.choice([self.width(), self.r.randint(33, MAX_WIDTH)])
+            width = self.r.choice([self.any_type()[0], self.r.randint(33, MAX_WIDTH)])
             return value.cast(width, value.signed)
         return value
 
@@ -121,7 +105,7 @@ class Expressions:
         if self.small:
             depth = 1
         kinds = [("arithmetic", 26), ("multiply", 6), ("bitwise", 12), ("shift", 10), ("divide", 4), ("ternary", 8),
-                 ("cast", 8), ("range", 7), ("bit", 5), ("concat", 5), ("unary", 8), ("reduce", 2), ("c_int", 5),
+                 ("cast", 8), ("clamp", 4), ("range", 7), ("bit", 5), ("concat", 5), ("unary", 8), ("reduce", 2), ("c_int", 5),
                  ("table", 5 if self.tables else 0), ("helper", 5 if self.helpers else 0), ("compare", 4), ("leaf", 6)]
         kind = r.choices([k for k, _ in kinds], [w for _, w in kinds])[0]
         return self.limit(getattr(self, "make_" + kind)(depth - 1))
@@ -129,7 +113,7 @@ class Expressions:
     def ap_operand(self, depth, widest=MAX_WIDTH):
         value = self.expression(depth).as_ap()
         if value.width > widest:
-            value = value.cast(r_width(self.r, widest), value.signed)
+            value = value.cast(self.width_up_to(widest), value.signed)
         return value
 
     def pair(self, depth):
@@ -168,6 +152,24 @@ class Expressions:
             b = b.cast(self.r.randint(2, 20), b.signed)
         self.hit("*", max(a.width, b.width), a.signed or b.signed)
         return Value(f"({a.text} * {b.text})", a.width + b.width, a.signed or b.signed, tainted=a.tainted or b.tainted)
+
+    def make_clamp(self, depth):
+        """A sum, difference or product that stays within what a type holds, or whether it does."""
+        r = self.r
+        a, b = self.pair(0)
+        op = r.choice("+-*")
+        if op == "*":
+            a, b = (v.cast(self.width_up_to(20), v.signed) for v in (a, b))
+        exact = f"({a.text} {op} {b.text})"
+        width, signed = r.choice([8, 16, self.width_up_to(30)]), r.random() < 0.5
+        low, high = (-(1 << (width - 1)), (1 << (width - 1)) - 1) if signed else (0, (1 << width) - 1)
+        tainted = a.tainted or b.tainted
+        self.hit("clamp " + op, width, signed)
+        if r.random() < 0.3:
+            return Value(f"({exact} > {high} || {exact} < {low})", 1, False, tainted=tainted, c_int=True)
+        name = type_name(width, signed)
+        return Value(f"({exact} > {high} ? {name}({high}) : {exact} < {low} ? {name}({low}) : {name}({exact}))", width,
+                     signed, tainted=tainted)
 
     def make_bitwise(self, depth):
         a, b = self.pair(depth)

@@ -66,7 +66,7 @@ class Memories(Statements):
             name = self.fresh("table")
             bits = r.randint(2, 6)
             if r.random() < 0.7:
-                width, signed = min(self.width(), 40), r.random() < 0.5
+                width, signed = min(self.any_type()[0], 40), r.random() < 0.5
                 type_text = type_name(width, signed)
             else:
                 type_text = r.choice(["short", "unsigned char", "int", "unsigned"])
@@ -117,7 +117,7 @@ class Memories(Statements):
                 # the template's own width takes part, too
                 out[-1] = out[-1].replace("return ", f"return {type_name(*result)}(ap_int<W>(a0) ^ ", 1)[:-1] + ");"
                 out.append("}")
-                called = f"{name}<{self.width()}>"
+                called = f"{name}<{self.any_type()[0]}>"
             elif kind == "functor":
                 width, signed = self.any_type()
                 out.append(f"struct {name}_t {{")

@@ -4,7 +4,7 @@ import random
 
 from .drivers import driver, driver_of_tasks
 from .programs import INCLUDES, Body, struct_texts
-from .values import type_name
+from .values import palette_of, type_name
 
 # Every process makes 4 iterations a row. A stream carries a token in each of them, or in some that are fixed: so its
 # writer and its reader agree on their number, whichever iterations of four each of them takes.
@@ -69,7 +69,7 @@ class Network:
         self.tasks = shape == "call" and r.random() < 0.5
         self.asks = shape == "call" and r.random() < 0.6
         maker = Body(self.seed, r, self.fast, None, self.features)
-        self.palette = maker.palette = [maker.width() for _ in range(4)]
+        self.palette = maker.palette = palette_of(self.seed, r, 4)
         count = r.choices([2, 3, 4, 5], [45, 30, 15, 10])[0]
         self.hit(f"processes {count}")
         self.hit("network of loops" if shape == "counted" else "network without scalars")

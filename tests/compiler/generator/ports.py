@@ -10,7 +10,7 @@ class Ports(Memories):
         port = {"name": name, "members": [], "axis": axis, "input": is_input, "every": None}
         self.hit("input" if is_input else "output")
         if axis:
-            width = r.choice([8, 16, 32, 64, self.width()])
+            width = r.choice([8, 16, 32, 64, self.any_type()[0]])
             self.hit("payload AXI", width)
             signed = r.random() < 0.3
             port["type"] = f"{'ap_axis' if signed else 'ap_axiu'}<{width}, {r.randint(1, 3)}, 1, 1>"

@@ -4,7 +4,7 @@ import random
 
 from .drivers import driver
 from .questions import Questions
-from .values import C_TYPES, Variable, type_name
+from .values import C_TYPES, Variable, palette_of, type_name
 
 INCLUDES = ['#include "ap_axi_sdata.h"', '#include "ap_int.h"', '#include "hls_stream.h"', ""]
 # Share of programs with one input, one output, at most two states and shallow expressions.
@@ -102,7 +102,7 @@ class Program(Body):
         numbers = random.Random(seed * 2654435761 % (1 << 31) + 17)
         super().__init__(seed, numbers, numbers.random() < 0.5, None, {})
         self.name = f"random_{seed}"
-        self.palette = [self.width() for _ in range(5)]
+        self.palette = palette_of(seed, numbers, 5)
 
     def generate(self):
         r = self.r

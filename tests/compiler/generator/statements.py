@@ -1,7 +1,7 @@
 """Random statements: declarations, changes of variables, conditions, loops that are unrolled."""
 
 from .expressions import Expressions
-from .values import Value, Variable, r_width, type_name
+from .values import Value, Variable, type_name
 
 
 class Statements(Expressions):
@@ -188,7 +188,7 @@ class Statements(Expressions):
         bits = r.randint(1, 3)
         self.hit("switch")
         selector = self.ap_operand(1).cast(bits, False)
-        self.emit(f"switch ({selector.text}.to_uint()) {{")
+        self.emit(f"switch (({selector.text}).to_uint()) {{")
         self.indent += 1
         cases = r.sample(range(1 << bits), r.randint(1, 1 << bits))
         for case in cases:

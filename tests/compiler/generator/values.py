@@ -1,5 +1,7 @@
 """Types, values and variables of random programs."""
 
+import random
+
 MAX_WIDTH = 200
 # Every width of a value falls into one of these: the statistics tell which features met which widths.
 WIDTH_CLASSES = ((1, 1), (2, 2), (3, 30), (31, 33), (34, 62), (63, 65), (66, 128), (129, 200), (201, 1000))
@@ -41,5 +43,20 @@ class Variable:
         return Value(self.name, self.width, self.signed, tainted=self.tainted)
 
 
-def r_width(r, widest):
-    return r.choice([min(widest, 16), widest, r.randint(1, widest)])
+# Neighbouring seeds, which are compiled together, have their widths in common: compiling is what takes time, and most of
+# it goes into the operators of ap_int, one function for each pair of widths.
+FAMILY = 200
+# How many widths of which kind a family has, and how often a program takes one of that kind.
+KINDS = (((1, 1), 1, 12), ((2, 2), 1, 8), ((3, 16), 4, 55), ((31, 33), 1, 10), ((63, 65), 1, 7), ((17, 48), 1, 4),
+         ((66, 130), 1, 2.5), ((127, 200), 1, 1.5))
+
+
+def palette_of(seed, r, count):
+    """The widths of one program, from those of its family."""
+    family = random.Random(seed // FAMILY)
+    widths, weights = [], []
+    for (low, high), number, weight in KINDS:
+        for _ in range(number):
+            widths.append(family.randint(low, high))
+            weights.append(weight / number)
+    return r.choices(widths, weights, k=count)
