@@ -94,11 +94,11 @@ class network_parser {
 }  // namespace
 
 std::string print(const network& n) {
-  std::string text = fmt::format("network {}\n", quoted(n.name));
-  for (const std::string& file : n.files) text += fmt::format("file {}\n", quoted(file));
+  std::string text = fmt::format("network {}\n", in_quotes(n.name));
+  for (const std::string& file : n.files) text += fmt::format("file {}\n", in_quotes(file));
   for (const port& p : n.ports) text += print_port(p);
   for (const fifo& f : n.fifos)
-    text += fmt::format("fifo {} {} depth {}{}", quoted(f.name), f.width, f.depth, place_and_end(f.where));
+    text += fmt::format("fifo {} {} depth {}{}", in_quotes(f.name), f.width, f.depth, place_and_end(f.where));
   for (std::size_t i = 0; i < n.processes.size(); ++i)
     text += "process" + place_and_end(n.called[i]) + print(n.processes[i]);
   return text;

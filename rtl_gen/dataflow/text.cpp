@@ -41,19 +41,19 @@ class printer {
   explicit printer(const graph& g) : g_(g) {}
 
   std::string run() {
-    put("graph {}\n", quoted(g_.name));
-    for (const std::string& file : g_.files) put("file {}\n", quoted(file));
+    put("graph {}\n", in_quotes(g_.name));
+    for (const std::string& file : g_.files) put("file {}\n", in_quotes(file));
     for (const port& p : g_.ports) text_ += print_port(p);
     for (const register_state& r : g_.registers) print_register(r);
     for (const memory& m : g_.memories) {
-      put("memory {} {} words {}", quoted(m.name), m.words, m.width);
+      put("memory {} {} words {}", in_quotes(m.name), m.words, m.width);
       if (m.distance != 1) put(" distance {}", m.distance);
       if (m.distance_promised) put(" promised");
       end_line(m.where);
       print_words(m.initial);
     }
     for (const table& t : g_.tables) {
-      put("table {} {}", quoted(t.name), t.width);
+      put("table {} {}", in_quotes(t.name), t.width);
       if (t.immediate) put(" immediate");
       end_line(t.where);
       print_words(t.values);
@@ -78,7 +78,7 @@ class printer {
   void end_line(const source_location& where) { text_ += place_and_end(where); }
 
   void print_register(const register_state& r) {
-    put("register {} {}", quoted(r.name), r.width);
+    put("register {} {}", in_quotes(r.name), r.width);
     if (r.initial) put(" initial {}{}", hex(*r.initial), r.resets ? "" : " unreset");
     put(" next %{} enable %{}", r.next, r.enable);
     if (r.patient) put(" patient");
@@ -103,7 +103,7 @@ class printer {
       for (std::size_t i = 0; i < n.operands.size(); ++i) put("{}%{}", i == 0 ? "" : ", ", n.operands[i]);
       text_ += ')';
     }
-    if (!n.name.empty()) put(" {}", quoted(n.name));
+    if (!n.name.empty()) put(" {}", in_quotes(n.name));
     end_line(n.where);
   }
 

@@ -8,7 +8,7 @@ constexpr port_kind port_kinds[] = {port_kind::stream, port_kind::call, port_kin
 
 }  // namespace
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\')
@@ -31,11 +31,11 @@ std::string place_and_end(const source_location& where) {
 }
 
 std::string print_port(const port& p) {
-  std::string text = fmt::format("{} {} {} {}{}", p.input ? "input" : "output", name_of(p.kind), quoted(p.name),
+  std::string text = fmt::format("{} {} {} {}{}", p.input ? "input" : "output", name_of(p.kind), in_quotes(p.name),
                                  p.width, place_and_end(p.where));
   for (const field& f : p.fields)
-    text +=
-        fmt::format("  field {} {} {}{}\n", quoted(f.name), quoted(f.signal), f.width, f.is_signed ? " signed" : "");
+    text += fmt::format("  field {} {} {}{}\n", in_quotes(f.name), in_quotes(f.signal), f.width,
+                        f.is_signed ? " signed" : "");
   return text;
 }
 

@@ -15,7 +15,7 @@
 namespace epiline::dataflow {
 
 /// "text" with the escapes of text.hpp.
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string in_quotes(std::string_view text);
 
 /// " @file:line" if it is known, and the line's end.
 [[nodiscard]] std::string place_and_end(const source_location& where);
