@@ -4,6 +4,7 @@
 #include <llvm/ADT/MapVector.h>
 #include <llvm/Analysis/LoopInfo.h>
 #include <llvm/IR/DebugInfoMetadata.h>
+#include <llvm/IR/GetElementPtrTypeIterator.h>
 #include <llvm/IR/InstIterator.h>
 #include <llvm/IR/IntrinsicInst.h>
 #include <llvm/IR/Verifier.h>
@@ -115,7 +116,9 @@ class port_lowering {
     if (name_of(call) != "__epiline_port" && !internal) return;
     const unsigned port = add_port(internal ? source_.streams[index_of(call)] : parameter_name(index_of(call)),
                                    dataflow::port_kind::stream, true);
-    ports_of_objects_[object_behind(call.getArgOperand(1))] = port;
+    const auto object = object_behind(call.getArgOperand(1));
+    ports_of_objects_[object] = port;
+    if (internal) arrays_[object] = llvm::cast<llvm::ConstantInt>(call.getArgOperand(2))->getZExtValue();
     finished_.push_back(&call);
   }
 
@@ -281,6 +284,26 @@ class port_lowering {
     finished_.push_back(&call);
   }
 
+  /// How far behind its pointer the array begins that an element is chosen of.
+  [[nodiscard]] std::uint64_t offset_of_array(const llvm::GEPOperator& element) const {
+    std::uint64_t offset = 0;
+    for (auto index = llvm::gep_type_begin(element); index != llvm::gep_type_end(element); ++index) {
+      const auto* number = llvm::dyn_cast<llvm::ConstantInt>(index.getOperand());
+      if (number == nullptr) break;
+      if (llvm::StructType* type = index.getStructTypeOrNull())
+        offset += layout().getStructLayout(type)->getElementOffset(static_cast<unsigned>(number->getZExtValue()));
+      else
+        offset += number->getZExtValue() * index.getSequentialElementStride(layout()).getFixedValue();
+    }
+    return offset;
+  }
+
+  /// Where in its object the array begins that has a stream at this place; 0 if it is not known.
+  [[nodiscard]] std::uint64_t array_at(const llvm::Value* object, std::uint64_t offset) const {
+    const auto found = arrays_.find({object, offset});
+    return found == arrays_.end() ? 0 : found->second;
+  }
+
   /// `lanes[i].write(v)`: an access of each stream of the array, on the condition that it is the one. Where a loop over
   /// them is unrolled later, one is left. Returns whether the access is replaced.
   bool expand_choice(llvm::CallInst& call) {
@@ -290,9 +313,10 @@ class port_lowering {
     llvm::MapVector<llvm::Value*, llvm::APInt> variable;
     llvm::APInt constant(64, unused);
     if (!element->collectOffset(layout(), 64, variable, constant)) return false;
+    const std::uint64_t array = array_at(object, unused + offset_of_array(*element));
     std::vector<std::uint64_t> elements;
     for (const auto& [stream, port] : ports_of_objects_)
-      if (stream.first == object) elements.push_back(stream.second);
+      if (stream.first == object && array_at(object, stream.second) == array) elements.push_back(stream.second);
     if (elements.empty()) return false;
     llvm::IRBuilder<> builder(&call);
     llvm::Value* number = builder.getInt(constant);
@@ -341,6 +365,7 @@ class port_lowering {
   const top_description& top_;
   const process_source& source_;
   std::map<std::pair<const llvm::Value*, std::uint64_t>, unsigned> ports_of_objects_;  // by object and its element
+  std::map<std::pair<const llvm::Value*, std::uint64_t>, std::uint64_t> arrays_;       // where its array begins
   std::vector<llvm::CallInst*> finished_;
   std::vector<argument> arguments_;
   llvm::CallInst* first_argument_ = nullptr;

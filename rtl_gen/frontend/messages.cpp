@@ -50,8 +50,8 @@ std::vector<message> parse(const std::string& text) {
 /// What to do about what clang found.
 std::string advice_for(const std::string& text) {
   static const std::pair<std::regex, const char*> known[] = {
-      {std::regex("'hls_(streamofblocks|np_channel|burst_maxi).*' file not found"),
-       "channels of several ends or of blocks and memory bursts are not supported: use functions over hls::stream"},
+      {std::regex("'hls_(streamofblocks|burst_maxi).*' file not found"),
+       "streams of blocks and memory bursts are not supported: use functions over hls::stream"},
       {std::regex("'.*xf_.*' file not found"),
        "the vendor's libraries are not part of this: write the kernel with ap_int.h and hls_stream.h"},
       {std::regex("file not found"), "name its folder with -I"},

@@ -100,16 +100,18 @@ void process_streams::mark(llvm::Function& process) const {
   llvm::IRBuilder<> builder(&*process.getEntryBlock().getFirstNonPHIOrDbgOrAlloca());
   llvm::FunctionCallee mark = module_.getOrInsertFunction(
       internal_stream_name,
-      llvm::FunctionType::get(builder.getVoidTy(), {builder.getInt32Ty(), builder.getPtrTy()}, false));
+      llvm::FunctionType::get(builder.getVoidTy(), {builder.getInt32Ty(), builder.getPtrTy(), builder.getInt64Ty()},
+                              false));
   llvm::cast<llvm::Function>(mark.getCallee())->setDoesNotThrow();
-  const auto mark_one = [&](std::size_t number, llvm::Value* object) {
-    builder.CreateCall(mark, {builder.getInt32(static_cast<std::uint32_t>(number)), object});
+  const auto mark_one = [&](std::size_t number, llvm::Value* object, std::uint64_t array) {
+    builder.CreateCall(mark, {builder.getInt32(static_cast<std::uint32_t>(number)), object, builder.getInt64(array)});
   };
   for (const stream_object& object : objects_)
     for (std::size_t i = 0; i < object.numbers.size(); ++i)
       mark_one(object.numbers[i],
-               builder.CreateConstInBoundsGEP1_64(builder.getInt8Ty(), object.object, object.streams[i].offset));
-  for (const auto& [channel, number] : channels_) mark_one(number, channel);
+               builder.CreateConstInBoundsGEP1_64(builder.getInt8Ty(), object.object, object.streams[i].offset),
+               object.streams[i].array);
+  for (const auto& [channel, number] : channels_) mark_one(number, channel, 0);
 }
 
 std::set<const llvm::Value*> process_streams::objects() const {

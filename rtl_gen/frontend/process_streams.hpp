@@ -29,7 +29,8 @@ struct internal_stream {
   source_place place;
 };
 
-/// Names such a stream's object in the module: called with the stream's number and a pointer.
+/// Names such a stream's object in the module: called with the stream's number, a pointer, and where in the object the
+/// array begins that the stream is in.
 inline constexpr const char* internal_stream_name = "__epiline_internal_stream";
 
 /// Collects the streams of one top, in the order in which they are found.

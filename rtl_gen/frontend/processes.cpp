@@ -57,8 +57,8 @@ class splitter {
 
   split_top run() {
     has_tasks_ = has_tasks(module_);
-    call_tasks(module_);
-    const bool several = find_region() && find_parts();
+    const std::set<const llvm::Function*> with_tasks = call_tasks(module_);
+    const bool several = find_region(with_tasks) && find_parts();
     streams_.take_pragmas([this](const llvm::Function& in) { return is_left_over(in); }, source_.notes);
     for (llvm::CallInst* call : calls_of(module_, dataflow_pragma)) call->eraseFromParent();
     result_.streams = streams_.all();
@@ -81,9 +81,14 @@ class splitter {
 
   // ---- what the processes are ---------------------------------------------------------------------------------------
 
-  /// The top and the functions it calls that have DATAFLOW or streams of their own, which are as if they were written
-  /// out in it; false: none does.
-  bool find_region() {
+  /// The top and the functions it calls that have DATAFLOW, tasks or streams of their own, which are as if they were
+  /// written out in it; false: none does.
+  bool find_region(const std::set<const llvm::Function*>& with_tasks) {
+    const auto leads_to_tasks = [&](const llvm::Function& function) {
+      const std::set<const llvm::Function*> reached = reached_from(function);
+      return std::any_of(with_tasks.begin(), with_tasks.end(),
+                         [&](const llvm::Function* one) { return reached.count(one) != 0; });
+    };
     const std::set<const llvm::Function*> reached = reached_from(process_);
     std::set<const llvm::Function*> marked;
     std::vector<llvm::CallInst*> pragmas;
@@ -92,7 +97,7 @@ class splitter {
       marked.insert(pragma->getFunction());
       pragmas.push_back(pragma);
     }
-    if (pragmas.empty() && !joins_streams(top_function_)) return false;
+    if (pragmas.empty() && !leads_to_tasks(top_function_) && !joins_streams(top_function_)) return false;
     check_functions(module_, process_);
     dataflow_place_ = pragmas.empty() ? result_.top.place : place_of(*pragmas.front());
     region_ = {&top_function_};
@@ -100,7 +105,7 @@ class splitter {
       for (llvm::Instruction& instruction : llvm::instructions(*region_[i])) {
         llvm::Function* const callee = called_by(instruction);
         if (callee == nullptr || callee->isDeclaration()) continue;
-        if (marked.count(callee) != 0 || (takes_streams(*callee) && joins_streams(*callee)))
+        if (marked.count(callee) != 0 || leads_to_tasks(*callee) || (takes_streams(*callee) && joins_streams(*callee)))
           add_once(region_, callee);
         else if (takes_streams(*callee))
           add_once(functions_, callee);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,12 @@ namespace epiline::frontend {
 
 namespace {
 
-/// Whether it is a constructor of hls::task.
-bool makes_tasks(const llvm::Function& function) { return function.getName().starts_with("_ZN3hls4taskC"); }
+/// Whether it gives an hls::task its function: a constructor, or the operator of one that was made without.
+bool starts_tasks(const llvm::Function& function) {
+  const llvm::StringRef name = function.getName();
+  return name.starts_with("_ZN3hls4taskC1I") || name.starts_with("_ZN3hls4taskC2I") ||
+         name.starts_with("_ZN3hls4taskclI");
+}
 
 /// The task itself and its function come before the streams.
 void call_task(llvm::CallInst& made) {
@@ -37,14 +42,19 @@ void call_task(llvm::CallInst& made) {
 
 }  // namespace
 
-bool has_tasks(const llvm::Module& module) { return std::any_of(module.begin(), module.end(), makes_tasks); }
+bool has_tasks(const llvm::Module& module) { return std::any_of(module.begin(), module.end(), starts_tasks); }
 
-void call_tasks(llvm::Module& module) {
-  std::vector<std::string> constructors;
+std::set<const llvm::Function*> call_tasks(llvm::Module& module) {
+  std::vector<std::string> starts;
   for (const llvm::Function& function : module)
-    if (makes_tasks(function)) constructors.push_back(function.getName().str());
-  for (const std::string& constructor : constructors)
-    for (llvm::CallInst* made : calls_of(module, constructor)) call_task(*made);
+    if (starts_tasks(function)) starts.push_back(function.getName().str());
+  std::set<const llvm::Function*> callers;
+  for (const std::string& start : starts)
+    for (llvm::CallInst* made : calls_of(module, start)) {
+      callers.insert(made->getFunction());
+      call_task(*made);
+    }
+  return callers;
 }
 
 }  // namespace epiline::frontend

@@ -148,6 +148,21 @@ TEST(hls_task, ends_with_its_object) {
   EXPECT_EQ(s.in.read(), 1);
 }
 
+TEST(hls_task, may_get_its_function_later_and_keeps_it) {
+  streams s;
+  hls::task several[2];
+  s.in.write(1);
+  EXPECT_TRUE(s.out.empty());
+  for (int call = 0; call < 2; ++call) {  // as a top does whenever it is called
+    several[0](add<1>, s.in, s.between);
+    several[1](add<10>, s.between, s.out);
+  }
+  s.in.write(2);
+  EXPECT_EQ(s.out.read(), 12);
+  EXPECT_EQ(s.out.read(), 13);
+  EXPECT_TRUE(s.out.empty());
+}
+
 TEST(hls_task, of_all_runs_until_none_can_go_on) {
   streams s;
   const hls::task second(add<10>, s.between, s.out);

@@ -106,20 +106,30 @@ class task_runner final : public tasks_beside {
 
 class task {
  public:
+  task() = default;
   /// `function` is called with these streams again and again, until the task is destroyed. What it throws, the access
   /// of a stream throws that made it run.
   template <class... P, class... A>
   explicit task(void (*function)(P...), A&... streams) {
+    (*this)(function, streams...);
+  }
+  /// The same for a task that was made without a function, one of an array. The calls that a top makes later, for the
+  /// streams that the task has already, mean nothing.
+  template <class... P, class... A>
+  void operator()(void (*function)(P...), A&... streams) {
     static_assert((std::is_reference_v<P> && ...), "the function of a task takes streams by reference");
+    if (task_ != nullptr) return;
     detail::tasks = &detail::task_runner::instance();
     task_ = detail::task_runner::instance().add([function, &streams...] { function(streams...); });
   }
   task(const task&) = delete;
   task& operator=(const task&) = delete;
-  ~task() { detail::task_runner::instance().remove(task_); }
+  ~task() {
+    if (task_ != nullptr) detail::task_runner::instance().remove(task_);
+  }
 
  private:
-  const void* task_;
+  const void* task_ = nullptr;
 };
 
 }  // namespace hls
