@@ -1,7 +1,9 @@
-// ap_shift_reg.h, hls_vector.h and hls_math.h against their meaning in plain C++.
+// ap_shift_reg.h, hls_vector.h, hls_math.h, hls_print.h and ap_utils.h against their meaning in plain C++.
 #include <ap_shift_reg.h>
+#include <ap_utils.h>
 #include <gtest/gtest.h>
 #include <hls_math.h>
+#include <hls_print.h>
 #include <hls_vector.h>
 
 #include <cmath>
@@ -169,6 +171,18 @@ TEST(hls_math, chooses_of_mixed_types) {
   EXPECT_EQ(hls::abs(-7), 7);
   const ap_uint<16> both = 0x12ab;
   EXPECT_EQ(hls::max(both(7, 0), ap_uint<8>(1)).to_uint(), 0xabu);
+}
+
+// ---- hls::print, ap_wait ----
+TEST(hls_print, prints_a_text_and_a_number) {
+  testing::internal::CaptureStdout();
+  hls::print("only text %\n");
+  hls::print("%d and", ap_int<5>(-3).to_int());
+  hls::print(" %.2f", 0.25f);
+  ap_wait();
+  ap_wait_n(3);
+  ap_wait_until(true);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "only text %\n-3 and 0.25");
 }
 
 }  // namespace
