@@ -30,6 +30,22 @@ bool compile_time_run::run_function(const llvm::Function& function) {
   }
 }
 
+llvm::Constant* compile_time_run::result_of(const llvm::CallBase& called) {
+  try {
+    frame values;
+    llvm::Constant* const result = call(called, values).number;
+    const auto may_change = [](const llvm::Value* variable) {
+      const auto* global = llvm::dyn_cast<llvm::GlobalVariable>(variable);
+      return global == nullptr || !global->isConstant();
+    };
+    const std::vector<const llvm::Value*> read = read_variables();
+    const bool depends = !written_variables().empty() || std::any_of(read.begin(), read.end(), may_change);
+    return depends || !llvm::isa_and_nonnull<llvm::ConstantInt>(result) ? nullptr : result;
+  } catch (const unknown&) {
+    return nullptr;
+  }
+}
+
 compile_time_run::edge compile_time_run::run_part(const llvm::BasicBlock& start, const llvm::BasicBlock& before,
                                                   llvm::function_ref<bool(const llvm::BasicBlock&)> is_part) {
   try {

@@ -28,6 +28,9 @@ class compile_time_run {
   /// Runs a function without parameters to its end. Returns whether everything was known.
   bool run_function(const llvm::Function& function);
 
+  /// What a call with constant arguments returns, which must be a number; null where that depends on anything else.
+  [[nodiscard]] llvm::Constant* result_of(const llvm::CallBase& call);
+
   /// A way out of the code that was run.
   struct edge {
     const llvm::BasicBlock* from = nullptr;  // null: something is not known

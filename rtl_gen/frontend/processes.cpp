@@ -15,6 +15,7 @@
 #include "frontend/calls.hpp"
 #include "frontend/checks.hpp"
 #include "frontend/code_processes.hpp"
+#include "frontend/constant_calls.hpp"
 #include "frontend/copies.hpp"
 #include "frontend/fill_tables.hpp"
 #include "frontend/function_passes.hpp"
@@ -323,6 +324,7 @@ class splitter {
 
 split_top split_into_processes(compiled_source& source, const source_options& options) {
   narrow_guards(*source.module);
+  compute_constant_calls(*source.module);
   return splitter(source, options).run();
 }
 
