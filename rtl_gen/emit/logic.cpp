@@ -43,7 +43,7 @@ void write_node(module_text& m, node_id id) {
     }
     case operation::memory_read:
       if (m.plan.memories[n.object].storage != storage_kind::block) {
-        m.line("  wire {}{} = {}[{}];{}", range, name, m.names.memories[n.object],
+        m.line("  wire {}{} = {}[{}];{}", range, name, m.array_read_by(id),
                m.values.index(n.operands[0], stage, m.g.memories[n.object].words), note);
       }
       return;

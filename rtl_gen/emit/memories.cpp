@@ -54,10 +54,13 @@ void write_memory_declarations(module_text& m) {
   for (std::size_t i = 0; i < m.g.memories.size(); ++i) {
     const dataflow::memory& memory = m.g.memories[i];
     const memory_plan& p = m.plan.memories[i];
-    m.line("  (* {}{} *)", style(p.storage), p.never_meets ? ", no_rw_check" : "");
-    m.line("  reg {}{} [0:{}];{}", range_of(memory.width), m.names.memories[i], memory.words - 1,
-           m.comment(memory.where));
-    if (!memory.initial.empty()) write_contents(m, m.names.memories[i], memory.initial);
+    // An array for each port that reads, since a RAM has one: to find out how many copies do, of an array that many
+    // ports read, takes synthesis more memory than machines have (sixteen ports: over 20 GB).
+    for (const std::string& array : m.names.memories[i]) {
+      m.line("  (* {}{} *)", style(p.storage), p.never_meets ? ", no_rw_check" : "");
+      m.line("  reg {}{} [0:{}];{}", range_of(memory.width), array, memory.words - 1, m.comment(memory.where));
+      if (!memory.initial.empty()) write_contents(m, array, memory.initial);
+    }
   }
   if (!m.g.tables.empty()) m.title("constant tables");
   for (std::size_t t = 0; t < m.g.tables.size(); ++t) {
@@ -112,7 +115,7 @@ void write_block_reads(module_text& m, int stage) {
       const std::string& name = m.names.nodes[port.reads[0]];
       m.values.read_by(port.reads[0]);
       m.line("  reg {}{}_q;{}", range_of(m.g.memories[i].width), name, m.comment(m.g.nodes[port.reads[0]].where));
-      m.line("  always @(posedge clk) {}_q <= {}[{}];", name, m.names.memories[i],
+      m.line("  always @(posedge clk) {}_q <= {}[{}];", name, m.array_read_by(port.reads[0]),
              m.values.index(port.address, stage, m.g.memories[i].words));
     }
   }
@@ -122,7 +125,7 @@ void write_memory_writes(module_text& m, int stage) {
   for (std::size_t i = 0; i < m.g.memories.size(); ++i) {
     const memory_plan& p = m.plan.memories[i];
     if (p.writes.empty() || m.s.stage[p.writes[0]] != stage) continue;
-    const std::string& name = m.names.memories[i];
+    const std::vector<std::string>& arrays = m.names.memories[i];
     const std::uint64_t words = m.g.memories[i].words;
     const auto enable = [&](node_id condition) {
       // A flip-flop that says whether the stage holds an iteration, too, if there is one.
@@ -135,8 +138,10 @@ void write_memory_writes(module_text& m, int stage) {
       for (const node_id id : p.writes) {
         const node& n = m.g.nodes[id];
         m.values.read_by(id);
-        m.line("    if ({}) {}[{}] <= {};", enable(n.operands[2]), name, m.values.index(n.operands[0], stage, words),
-               m.values.whole(n.operands[1], stage));
+        const std::string enabled = enable(n.operands[2]);
+        const std::string address = m.values.index(n.operands[0], stage, words);
+        const std::string data = m.values.whole(n.operands[1], stage);
+        for (const std::string& array : arrays) m.line("    if ({}) {}[{}] <= {};", enabled, array, address, data);
       }
       m.line("  end");
       continue;
@@ -159,14 +164,14 @@ void write_memory_writes(module_text& m, int stage) {
         data += fmt::format("{} ? {} : ", e, m.values.operand(n.operands[1], stage));
       }
     }
-    const std::string port = m.names.fresh(name + "_write");
-    const std::string port_address = m.names.fresh(name + "_write_address");
-    const std::string port_data = m.names.fresh(name + "_write_data");
+    const std::string port = m.names.fresh(arrays[0] + "_write");
+    const std::string port_address = m.names.fresh(arrays[0] + "_write_address");
+    const std::string port_data = m.names.fresh(arrays[0] + "_write_data");
     m.line("  wire {} = {};", port, all_early ? any : fmt::format("{} & ({})", m.values.valid(stage), any));
     m.line("  wire {}{} = {};", range_of(bits_for(words - 1)), port_address, address);
     m.line("  wire {}{} = {};", range_of(m.g.memories[i].width), port_data, data);
     m.line("  always @(posedge clk) begin");
-    m.line("    if ({}) {}[{}] <= {};", port, name, port_address, port_data);
+    for (const std::string& array : arrays) m.line("    if ({}) {}[{}] <= {};", port, array, port_address, port_data);
     m.line("  end");
   }
 }

@@ -85,7 +85,12 @@ module_names::module_names(const module_design& design) {
   for (const dataflow::port& port : design.g.ports) ports.push_back(fresh_port(port.name, design.options.axi_lite));
   for (const dataflow::register_state& r : design.g.registers)
     registers.push_back(fresh(r.name.empty() ? "state" : r.name));
-  for (const dataflow::memory& m : design.g.memories) memories.push_back(fresh(m.name.empty() ? "ram" : m.name));
+  for (std::size_t i = 0; i < design.g.memories.size(); ++i) {
+    const std::string& name = design.g.memories[i].name;
+    memories.push_back({fresh(name.empty() ? "ram" : name)});
+    for (std::size_t copy = 1; copy < design.plan.memories[i].reads.size(); ++copy)
+      memories.back().push_back(fresh(copy_name(memories.back()[0], copy)));
+  }
   for (const dataflow::table& t : design.g.tables) tables.push_back(fresh(t.name.empty() ? "rom" : t.name));
   pending.resize(design.g.registers.size());
   for (register_id r = 0; r < design.g.registers.size(); ++r) {

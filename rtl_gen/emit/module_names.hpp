@@ -22,7 +22,8 @@ class module_names {
   [[nodiscard]] std::string fresh(std::string_view wanted);
 
   std::vector<std::string> nodes;  // empty for nodes that are never named
-  std::vector<std::string> registers, memories, tables, ports, delay_lines;
+  std::vector<std::string> registers, tables, ports, delay_lines;
+  std::vector<std::vector<std::string>> memories;                        // by memory: an array for each port that reads
   std::vector<std::string> pending;                                      // patient registers' next value
   std::map<std::pair<dataflow::node_id, int>, std::string> update_bits;  // of plan::update_bits
 

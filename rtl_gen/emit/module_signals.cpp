@@ -76,8 +76,8 @@ std::vector<signal> signals_of(const module_text& m) {
   }
   for (std::size_t i = 0; i < m.g.memories.size(); ++i) {
     const dataflow::memory& memory = m.g.memories[i];
-    all.push_back(
-        {m.names.memories[i], "memory", fmt::format("{} words", memory.words), memory.width, -1, {memory.where}});
+    for (const std::string& array : m.names.memories[i])
+      all.push_back({array, "memory", fmt::format("{} words", memory.words), memory.width, -1, {memory.where}});
   }
   for (std::size_t t = 0; t < m.g.tables.size(); ++t) {
     const dataflow::table& table = m.g.tables[t];

@@ -40,6 +40,9 @@ struct module_text : module_design {
   /// "  // kernel.cpp:12", or nothing.
   [[nodiscard]] std::string comment(dataflow::source_location where) const;
 
+  /// The array of a memory that this read looks at.
+  [[nodiscard]] const std::string& array_read_by(dataflow::node_id read) const;
+
   using move_list = std::vector<std::pair<std::string, std::string>>;  // at the clock: into what, and what
   struct flip_flops {
     std::string name;

@@ -57,6 +57,13 @@ class AllLevels(CheckTest):
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
         self.assertIn("4 levels are equal\n", run.stdout)
 
+    def test_a_memory_that_many_ports_read(self):
+        # Written as one array, it took synthesis over 20 GB.
+        run = self.check(KERNELS.parent / "regressions" / "many_readers.cpp", "many_readers", "--levels", "netlist", "--tokens",
+                         "260")
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        self.assertEqual(self.table(run)["netlist"][0], "equal")
+
     def test_a_netlist_that_verilator_optimises_wrongly(self):
         # With its data-flow optimiser, Verilator 5.006 computes other sums than Icarus of these gates.
         run = self.check(KERNELS / "matrix_vector.cpp", "matrix_vector", "--target", "generic", "--levels", "netlist")
