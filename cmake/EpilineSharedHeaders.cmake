@@ -1,0 +1,15 @@
+# epiline_shared_headers(NAME PROGRAM|LIBRARY LIBRARIES <target>.. HEADERS <header>..): headers that take longer to read than
+# most files take to compile, precompiled once for all targets of that kind (their code is placed in memory in the same way)
+# that say target_precompile_headers(TARGET REUSE_FROM NAME). Each file still names what it uses.
+function(epiline_shared_headers name kind)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "LIBRARIES;HEADERS")
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+  file(CONFIGURE OUTPUT ${source} CONTENT "int main() {}\n")
+  if(kind STREQUAL "PROGRAM")
+    add_executable(${name} EXCLUDE_FROM_ALL ${source})
+  else()
+    add_library(${name} STATIC EXCLUDE_FROM_ALL ${source})
+  endif()
+  target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} epiline_warnings)
+  target_precompile_headers(${name} PRIVATE ${arg_HEADERS})
+endfunction()
