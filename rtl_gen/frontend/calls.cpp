@@ -1,5 +1,7 @@
 #include "frontend/calls.hpp"
 
+#include <llvm/ADT/SCCIterator.h>
+#include <llvm/Analysis/CallGraph.h>
 #include <llvm/IR/DebugInfoMetadata.h>
 #include <llvm/IR/InstIterator.h>
 
@@ -39,6 +41,18 @@ std::set<const llvm::Function*> reached_from(const llvm::Function& root) {
         pending.push_back(callee);
   }
   return reached;
+}
+
+std::vector<llvm::Function*> recursive_functions(llvm::Module& module) {
+  std::vector<llvm::Function*> found;
+  llvm::CallGraph calls(module);
+  for (auto component = llvm::scc_begin(&calls); !component.isAtEnd(); ++component) {
+    if (!component.hasCycle()) continue;
+    for (const llvm::CallGraphNode* node : *component)
+      if (llvm::Function* function = node->getFunction(); function != nullptr && !function->isDeclaration())
+        found.push_back(function);
+  }
+  return found;
 }
 
 std::string short_name(const llvm::Function& function) {

@@ -24,6 +24,9 @@ namespace epiline::frontend {
 /// Everything that runs when `root` does, itself included.
 [[nodiscard]] std::set<const llvm::Function*> reached_from(const llvm::Function& root);
 
+/// The functions that call themselves, directly or through others: what is called comes before its callers.
+[[nodiscard]] std::vector<llvm::Function*> recursive_functions(llvm::Module& module);
+
 /// As the source calls the function, without scopes and parameters.
 [[nodiscard]] std::string short_name(const llvm::Function& function);
 

@@ -1,8 +1,6 @@
 #include "frontend/checks.hpp"
 
 #include <fmt/format.h>
-#include <llvm/ADT/SCCIterator.h>
-#include <llvm/Analysis/CallGraph.h>
 #include <llvm/Analysis/ValueTracking.h>
 #include <llvm/Demangle/Demangle.h>
 #include <llvm/IR/CFG.h>
@@ -13,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "frontend/calls.hpp"
 #include "frontend/host_mathematics.hpp"
 #include "frontend/source.hpp"
 
@@ -52,18 +51,12 @@ source_place users_place(const llvm::Function& function, const called_functions&
 }
 
 void check_recursion(llvm::Module& module, const called_functions& called) {
-  llvm::CallGraph calls(module);
-  for (auto component = llvm::scc_begin(&calls); !component.isAtEnd(); ++component) {
-    if (!component.hasCycle()) continue;
-    for (const llvm::CallGraphNode* node : *component) {
-      const llvm::Function* function = node->getFunction();
-      if (function == nullptr || function->isDeclaration() || called.count(function) == 0) continue;
+  for (const llvm::Function* function : recursive_functions(module))
+    if (called.count(function) != 0)
       refuse(users_place(*function, called),
              fmt::format("recursion in '{}': hardware has no call stack: write a loop, or recursion over template "
                          "parameters",
                          readable_name(*function)));
-    }
-  }
 }
 
 bool is_heap(llvm::StringRef name) {

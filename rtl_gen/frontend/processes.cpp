@@ -57,8 +57,8 @@ class splitter {
   }
 
   split_top run() {
-    has_tasks_ = has_tasks(module_);
     const std::set<const llvm::Function*> with_tasks = call_tasks(module_);
+    has_tasks_ = !with_tasks.empty();
     const bool several = find_region(with_tasks) && find_parts();
     streams_.take_pragmas([this](const llvm::Function& in) { return is_left_over(in); }, source_.notes);
     for (llvm::CallInst* call : calls_of(module_, dataflow_pragma)) call->eraseFromParent();
@@ -86,9 +86,8 @@ class splitter {
   /// written out in it; false: none does.
   bool find_region(const std::set<const llvm::Function*>& with_tasks) {
     const auto leads_to_tasks = [&](const llvm::Function& function) {
-      const std::set<const llvm::Function*> reached = reached_from(function);
       return std::any_of(with_tasks.begin(), with_tasks.end(),
-                         [&](const llvm::Function* one) { return reached.count(one) != 0; });
+                         [&](const llvm::Function* one) { return reached_from(function).count(one) != 0; });
     };
     const std::set<const llvm::Function*> reached = reached_from(process_);
     std::set<const llvm::Function*> marked;
