@@ -4,7 +4,6 @@
 #include <llvm/ADT/MapVector.h>
 #include <llvm/Analysis/LoopInfo.h>
 #include <llvm/IR/DebugInfoMetadata.h>
-#include <llvm/IR/GetElementPtrTypeIterator.h>
 #include <llvm/IR/InstIterator.h>
 #include <llvm/IR/IntrinsicInst.h>
 #include <llvm/IR/Verifier.h>
@@ -116,9 +115,8 @@ class port_lowering {
     if (name_of(call) != "__epiline_port" && !internal) return;
     const unsigned port = add_port(internal ? source_.streams[index_of(call)] : parameter_name(index_of(call)),
                                    dataflow::port_kind::stream, true);
-    const auto object = object_behind(call.getArgOperand(1));
-    ports_of_objects_[object] = port;
-    if (internal) arrays_[object] = llvm::cast<llvm::ConstantInt>(call.getArgOperand(2))->getZExtValue();
+    const std::uint64_t array = internal ? llvm::cast<llvm::ConstantInt>(call.getArgOperand(2))->getZExtValue() : 0;
+    ports_of_objects_[object_behind(call.getArgOperand(1))] = {port, array};
     finished_.push_back(&call);
   }
 
@@ -261,7 +259,7 @@ class port_lowering {
                  : "an internal hls::stream joins functions with #pragma HLS DATAFLOW in the top only: without it, use "
                    "variables between kernels of one loop");
     }
-    return found->second;
+    return found->second.port;
   }
 
   void set_payload(const llvm::CallInst& call, unsigned port, bool input, const std::vector<leaf>& leaves) {
@@ -284,24 +282,11 @@ class port_lowering {
     finished_.push_back(&call);
   }
 
-  /// How far behind its pointer the array begins that an element is chosen of.
+  /// How far behind its pointer the array begins that an element is chosen of: what stands before the first variable.
   [[nodiscard]] std::uint64_t offset_of_array(const llvm::GEPOperator& element) const {
-    std::uint64_t offset = 0;
-    for (auto index = llvm::gep_type_begin(element); index != llvm::gep_type_end(element); ++index) {
-      const auto* number = llvm::dyn_cast<llvm::ConstantInt>(index.getOperand());
-      if (number == nullptr) break;
-      if (llvm::StructType* type = index.getStructTypeOrNull())
-        offset += layout().getStructLayout(type)->getElementOffset(static_cast<unsigned>(number->getZExtValue()));
-      else
-        offset += number->getZExtValue() * index.getSequentialElementStride(layout()).getFixedValue();
-    }
-    return offset;
-  }
-
-  /// Where in its object the array begins that has a stream at this place; 0 if it is not known.
-  [[nodiscard]] std::uint64_t array_at(const llvm::Value* object, std::uint64_t offset) const {
-    const auto found = arrays_.find({object, offset});
-    return found == arrays_.end() ? 0 : found->second;
+    std::vector<llvm::Value*> indices(element.idx_begin(), element.idx_end());
+    indices.erase(std::find_if_not(indices.begin(), indices.end(), llvm::IsaPred<llvm::ConstantInt>), indices.end());
+    return static_cast<std::uint64_t>(layout().getIndexedOffsetInType(element.getSourceElementType(), indices));
   }
 
   /// `lanes[i].write(v)`: an access of each stream of the array, on the condition that it is the one. Where a loop over
@@ -313,10 +298,11 @@ class port_lowering {
     llvm::MapVector<llvm::Value*, llvm::APInt> variable;
     llvm::APInt constant(64, unused);
     if (!element->collectOffset(layout(), 64, variable, constant)) return false;
-    const std::uint64_t array = array_at(object, unused + offset_of_array(*element));
+    const auto first = ports_of_objects_.find({object, unused + offset_of_array(*element)});
+    const std::uint64_t array = first == ports_of_objects_.end() ? 0 : first->second.array;
     std::vector<std::uint64_t> elements;
-    for (const auto& [stream, port] : ports_of_objects_)
-      if (stream.first == object && array_at(object, stream.second) == array) elements.push_back(stream.second);
+    for (const auto& [stream, place] : ports_of_objects_)
+      if (stream.first == object && place.array == array) elements.push_back(stream.second);
     if (elements.empty()) return false;
     llvm::IRBuilder<> builder(&call);
     llvm::Value* number = builder.getInt(constant);
@@ -354,6 +340,10 @@ class port_lowering {
     }
   }
 
+  struct stream_port {
+    unsigned port = 0;
+    std::uint64_t array = 0;  // where in the object the array begins that the stream is in; 0 in the top's own
+  };
   struct argument {
     llvm::CallInst* call;
     llvm::Type* type;
@@ -364,8 +354,7 @@ class port_lowering {
   lowered_process& result_;
   const top_description& top_;
   const process_source& source_;
-  std::map<std::pair<const llvm::Value*, std::uint64_t>, unsigned> ports_of_objects_;  // by object and its element
-  std::map<std::pair<const llvm::Value*, std::uint64_t>, std::uint64_t> arrays_;       // where its array begins
+  std::map<std::pair<const llvm::Value*, std::uint64_t>, stream_port> ports_of_objects_;  // by object and its element
   std::vector<llvm::CallInst*> finished_;
   std::vector<argument> arguments_;
   llvm::CallInst* first_argument_ = nullptr;
@@ -418,7 +407,7 @@ lowered_process lower(process_source& source) {
   wait_instead_of_asking(process, managers, source.is_part);
   note_loops_of_pragmas(process);
   split_whole_structs(process);
-  write_out_overflow(process);
+  write_out_overflow(process);  // the source's own
   expand_copies(process, unknown_types::kept);
   resolve_pointer_choices(process);
   run_passes(process, managers, early_cleanup());
