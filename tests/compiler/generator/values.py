@@ -47,16 +47,15 @@ class Variable:
 # it goes into the operators of ap_int, one function for each pair of widths.
 FAMILY = 200
 # How many widths of which kind a family has, and how often a program takes one of that kind.
-KINDS = (((1, 1), 1, 12), ((2, 2), 1, 8), ((3, 16), 4, 55), ((31, 33), 1, 10), ((63, 65), 1, 7), ((17, 48), 1, 4),
-         ((66, 130), 1, 2.5), ((127, 200), 1, 1.5))
+KINDS = (((1,), 1, 12), ((2,), 1, 8), (range(3, 17), 4, 55), (range(31, 34), 1, 10), (range(63, 66), 1, 7),
+         (range(17, 49), 1, 4), (range(66, 131), 1, 2.5), ((127, 128, 129, *range(131, 191, 10), 191, 192, 193, 200), 1, 1.5))
 
 
 def palette_of(seed, r, count):
     """The widths of one program, from those of its family."""
     family = random.Random(seed // FAMILY)
     widths, weights = [], []
-    for (low, high), number, weight in KINDS:
-        for _ in range(number):
-            widths.append(family.randint(low, high))
-            weights.append(weight / number)
+    for kind, number, weight in KINDS:
+        widths += (family.choice(kind) for _ in range(number))
+        weights += [weight / number] * number
     return r.choices(widths, weights, k=count)
