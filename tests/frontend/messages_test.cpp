@@ -19,8 +19,7 @@ TEST(messages, keep_line_text_and_excerpt_and_lose_the_rest) {
 TEST(messages, say_what_to_do) {
   EXPECT_EQ(explain_messages("/k/fir.cpp:1:10: fatal error: 'hls_streamofblocks.h' file not found\n", {}),
             "/k/fir.cpp:1: error: 'hls_streamofblocks.h' file not found: streams of blocks and memory bursts are not "
-            "supported: "
-            "use functions over hls::stream");
+            "supported: use functions over hls::stream");
   EXPECT_EQ(explain_messages("/k/fir.cpp:1:10: fatal error: 'other.h' file not found\n", {}),
             "/k/fir.cpp:1: error: 'other.h' file not found: name its folder with -I");
 }
