@@ -417,7 +417,10 @@ const std::vector<std::uint64_t>& checker::peak_fills() const { return state_->p
 
 void checker::see_source(llvm::Module& module) {
   state_->top.members = frontend::parameter_members(module, state_->top.source.top);
-  state_->top.arrays = frontend::all_arrays(module);
+  for (const auto& arrays : {frontend::stream_arrays(module), frontend::value_arrays(module)})
+    for (const auto& [position, count] : arrays) state_->top.arrays[position] = static_cast<int>(count);
+  for (const auto& [position, count] : frontend::data_arrays(module))
+    state_->top.arrays[position] = -static_cast<int>(count);
   state_->has_tasks = frontend::has_tasks(module);
   if (wants("ir-source")) state_->top.source_ir = executable_source(module);
 }

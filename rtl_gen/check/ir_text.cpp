@@ -156,7 +156,13 @@ class source_rewriter : rewriter {
       old.replaceAllUsesWith(builder_.CreateCall(asks, {old.getArgOperand(0)}));
       return;
     }
-    if (argument || unwritten || read) {
+    if (name == "__epiline_elements") {
+      old.replaceAllUsesWith(old.getArgOperand(1));
+    } else if (name == "__epiline_is_given" || name == "__epiline_is_taken") {
+      const llvm::FunctionCallee asks = module_.getOrInsertFunction(
+          name == "__epiline_is_given" ? "epiline_check_is_given" : "epiline_check_is_taken", old.getFunctionType());
+      old.replaceAllUsesWith(builder_.CreateCall(asks, {old.getArgOperand(0)}));
+    } else if (argument || unwritten || read) {
       const payload of = payload_of(old);
       llvm::Value* const token = receive(argument    ? "epiline_check_argument"
                                          : unwritten ? "epiline_check_unwritten"

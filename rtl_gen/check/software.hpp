@@ -18,7 +18,7 @@ namespace epiline::check {
 struct top_parts {
   frontend::source_options source;
   std::map<unsigned, std::string> parameters;       // names, by index; every stream of an array has one
-  std::map<unsigned, unsigned> arrays;              // sizes, by position in the source
+  std::map<unsigned, int> arrays;                   // sizes, by position in the source; negative: see element_counts
   std::vector<std::optional<std::string>> members;  // of the parameters, see frontend::parameter_members
   std::string source_ir;
   std::vector<lowered_text> processes;

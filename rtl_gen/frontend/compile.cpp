@@ -103,9 +103,10 @@ std::string process_of(std::size_t number) {
 }
 
 /// The call of a top, behind the preprocessed source. The sizes of arrays are expressions in the top's namespace.
-std::string call_source(std::size_t number, const std::string& top, const std::vector<std::string>& array_sizes) {
+std::string call_source(std::size_t number, const std::string& top, const std::vector<array_parameter>& arrays) {
   std::string counts;
-  for (const std::string& size : array_sizes) counts += size.empty() ? ", 0" : fmt::format(", ({})", size);
+  for (const array_parameter& array : arrays)
+    counts += array.size.empty() ? ", 0" : fmt::format(", {}({})", array.is_stream ? "-int" : "", array.size);
   const llvm::StringRef name = llvm::StringRef(top).ltrim(':');
   const std::string space =
       name.contains("::") ? fmt::format("using namespace ::{}; ", name.rsplit("::").first.str()) : "";
@@ -186,9 +187,9 @@ compiled_source compile(const source_options& options, const std::vector<std::st
   if (!run_clang(preprocess, messages)) refuse_compilation(options, tops, read_file(messages), preprocessed);
 
   std::string source = read_file(preprocessed);
-  const std::vector<std::vector<std::string>> array_sizes = sizes_of_array_parameters(source, tops);
+  const std::vector<std::vector<array_parameter>> arrays = find_array_parameters(source, tops);
   for (std::size_t number = 0; number < tops.size(); ++number)
-    source += call_source(number, tops[number], array_sizes[number]);
+    source += call_source(number, tops[number], arrays[number]);
   if (options.on_preprocessed) options.on_preprocessed(source);
   compiled_source result;
   pragma_rewrite rewritten = rewrite_pragmas(source);

@@ -20,6 +20,7 @@
 #include "frontend/aggregates.hpp"
 #include "frontend/checks.hpp"
 #include "frontend/copies.hpp"
+#include "frontend/data_arrays.hpp"
 #include "frontend/fill_tables.hpp"
 #include "frontend/function_passes.hpp"
 #include "frontend/loops.hpp"
@@ -100,9 +101,8 @@ class port_lowering {
     static const char* const reasons[] = {
         ("is a pointer to what is no value: pass data through hls::stream references, or an array of one dimension of "
          "streams, written with its size"),
-        ("is an array of more than 128 bytes, or of no values: pass data through hls::stream references, or an array "
-         "of "
-         "one dimension of them"),
+        ("is an array of pointers, of streams in two dimensions or of no values: pass data through hls::stream "
+         "references, an array of one dimension of them, or an array of values"),
         "is a stream by value or by const reference: pass it as hls::stream<T>&",
         "is an rvalue reference: pass a scalar by value"};
     const auto reason = llvm::cast<llvm::ConstantInt>(call.getArgOperand(1))->getZExtValue();
@@ -415,7 +415,11 @@ lowered_process lower(process_source& source) {
   check_operations(process);
   check_endless_loops(managers.function.getResult<llvm::LoopAnalysis>(process));
   cut_after_noreturn(process);
-  if (!source.is_part) pass_what_is_read(process, source.top);
+  if (!source.is_part) {
+    pass_what_is_read(process, source.top);
+    if (connect_data_arrays(process, source.top, managers.function, false))
+      run_passes(process, managers, early_cleanup());
+  }
   port_lowering(result, source).run();
   managers.function.invalidate(process, llvm::PreservedAnalyses::none());
   run_passes(process, managers, early_cleanup());

@@ -36,6 +36,13 @@ const llvm::DIType* payload_of(const llvm::DIType* type) {
   return first == nullptr ? nullptr : bare(first->getType());
 }
 
+/// The type of an array's elements, whatever its dimensions; other types themselves.
+const llvm::DIType* element_of(const llvm::DIType* type) {
+  const auto* composite = llvm::dyn_cast_or_null<llvm::DICompositeType>(type);
+  if (composite == nullptr || composite->getTag() != llvm::dwarf::DW_TAG_array_type) return type;
+  return element_of(bare(composite->getBaseType()));
+}
+
 /// Appends the statements for `object`, an expression; false: cannot be told.
 bool visit(const llvm::DIType* type, const std::string& object, unsigned depth, std::string& text) {
   type = bare(type);
@@ -87,6 +94,7 @@ std::vector<std::optional<std::string>> parameter_members(llvm::Module& module, 
   const llvm::Function* function = find_top(module, top);
   if (function == nullptr) return result;
   const std::map<unsigned, unsigned> arrays = stream_arrays(module);
+  const std::map<unsigned, unsigned> data = data_arrays(module);
   const auto add = [&](const llvm::DIType* type, unsigned times) {
     std::string text;
     const bool known = visit(payload_of(type), "v", 0, text);
@@ -102,6 +110,10 @@ std::vector<std::optional<std::string>> parameter_members(llvm::Module& module, 
         type = bare(pointer->getBaseType());
     if (const auto* pointer = llvm::dyn_cast_or_null<llvm::DIDerivedType>(type);
         pointer != nullptr && pointer->getTag() == llvm::dwarf::DW_TAG_pointer_type) {
+      if (data.count(i - 1) != 0) {
+        add(element_of(bare(pointer->getBaseType())), 1);
+        continue;
+      }
       // To one value or, as the driver knows, to an array's.
       std::string text;
       const bool known = visit(pointer->getBaseType(), "element", 0, text);

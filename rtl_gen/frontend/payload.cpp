@@ -221,6 +221,10 @@ void refuse_members_like_padding(llvm::Type* type, const llvm::Module& module, c
 std::vector<leaf> leaves_of(llvm::Type* type, const llvm::Module& module, const source_place& place) {
   collector all{place, module.getDataLayout(), module, {}, {}, 0};
   all.visit(type);
+  // Several beats, or a beat and more, are numbers like others: a port has each signal of a beat once.
+  const auto comes_before = [](const leaf& a, const leaf& b) { return a.axis_field < b.axis_field; };
+  if (!std::is_sorted(all.leaves.begin(), all.leaves.end(), comes_before))
+    for (leaf& member : all.leaves) member.axis_field = 0;
   return all.leaves;
 }
 

@@ -39,8 +39,9 @@ bool is_arbitrary_precision(llvm::Type* type, unsigned& width, bool& is_signed);
 /// the very place where padding would be. The debug information of the module tells.
 void refuse_members_like_padding(llvm::Type* type, const llvm::Module& module, const source_place& place);
 
-/// The leaves of a payload type in order. Refuses (at `place`) floating point, pointers and other foreign types.
-/// What is padding is told by the module's debug information where the type alone does not tell.
+/// The leaves of a payload type in order; more than one AXI4-Stream beat is no such beat. Refuses (at `place`) floating
+/// point, pointers and other foreign types. What is padding is told by the module's debug information where the type
+/// alone does not tell.
 [[nodiscard]] std::vector<leaf> leaves_of(llvm::Type* type, const llvm::Module& module, const source_place& place);
 
 /// The RTL fields of a port that carries these leaves: tdata alone, or one group an AXI4-Stream member.

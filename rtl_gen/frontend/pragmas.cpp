@@ -53,6 +53,14 @@ pragma_line parse(llvm::StringRef text) {
   return result;
 }
 
+/// Whether a line is `#pragma HLS WORDS`; of it the words are left.
+bool is_of_flow(llvm::StringRef& line) {
+  line = line.trim();
+  if (!line.consume_front("#pragma")) return false;
+  line = line.ltrim();
+  return line.consume_front_insensitive("HLS");
+}
+
 /// One pragma for each name of a list, `port=a, b` or `variable=a, b`. Commas within brackets belong to an expression.
 std::vector<pragma_line> one_each(const pragma_line& pragma, const source_place& place) {
   for (const char* key : {"port", "variable"}) {
@@ -271,6 +279,26 @@ constexpr const char* declarations =
 
 }  // namespace
 
+std::set<std::string> stream_ports(const std::string& body) {
+  std::set<std::string> names;
+  llvm::StringRef rest = body;
+  while (!rest.empty()) {
+    const auto [line, after] = rest.split('\n');
+    rest = after;
+    llvm::StringRef text = line;
+    if (!is_of_flow(text)) continue;
+    const pragma_line pragma = parse(text);
+    if (pragma.name != "interface") continue;
+    const std::string mode = llvm::StringRef(pragma.get("mode")).lower();
+    if (!pragma.has("axis") && !pragma.has("ap_fifo") && mode != "axis" && mode != "ap_fifo") continue;
+    llvm::SmallVector<llvm::StringRef> ports;
+    const std::string list = pragma.get("port");
+    llvm::StringRef(list).split(ports, ',');
+    for (const llvm::StringRef port : ports) names.insert(port.str());
+  }
+  return names;
+}
+
 pragma_rewrite rewrite_pragmas(const std::string& preprocessed) {
   pragma_rewrite result;
   result.source = fmt::format("# 1 \"<pragmas>\"\n{}", declarations);
@@ -280,9 +308,9 @@ pragma_rewrite rewrite_pragmas(const std::string& preprocessed) {
     const auto [line, after] = rest.split('\n');
     rest = after;
     if (!follow_marker(line, place)) {
-      llvm::StringRef text = line.trim();
-      if (text.consume_front("#pragma") && (text = text.ltrim(), text.take_front(3).equals_insensitive("HLS"))) {
-        const pragma_line pragma = parse(text.drop_front(3));
+      llvm::StringRef text = line;
+      if (is_of_flow(text)) {
+        const pragma_line pragma = parse(text);
         const source_place near = {shown_path(place.file), place.line};
         result.places[{place.file, place.line}] = llvm::StringRef(pragma.name).upper();
         for (const pragma_line& one : one_each(pragma, near)) result.source += replacement(one, near, result.notes);

@@ -4,6 +4,7 @@
 // refused: none is ignored in silence.
 
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,9 @@ struct pragma_rewrite {
   std::vector<std::string> notes;  // pragmas that have no effect here and why, "FILE:LINE: note: ..."
   pragma_places places;
 };
+
+/// The parameters that a function's body declares to be streams: `INTERFACE axis port=NAME`, and ap_fifo.
+[[nodiscard]] std::set<std::string> stream_ports(const std::string& body);
 
 /// Rewrites preprocessed source (with clang's line markers). Throws `refused` for a pragma that cannot be honoured.
 [[nodiscard]] pragma_rewrite rewrite_pragmas(const std::string& preprocessed);

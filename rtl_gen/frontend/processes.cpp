@@ -17,6 +17,7 @@
 #include "frontend/code_processes.hpp"
 #include "frontend/constant_calls.hpp"
 #include "frontend/copies.hpp"
+#include "frontend/data_arrays.hpp"
 #include "frontend/fill_tables.hpp"
 #include "frontend/function_passes.hpp"
 #include "frontend/loops.hpp"
@@ -136,6 +137,7 @@ class splitter {
     // A table that more than one process has is no variable that they share.
     run_first_calls(module_);
     pass_what_is_read(process_, result_.top);
+    if (connect_data_arrays(process_, result_.top, managers_.function, true)) clean_up(process_);
     for (llvm::Function* function : outline_accesses(process_, functions_)) functions_.push_back(function);
     managers_.function.clear();
     find_calls();

@@ -71,8 +71,8 @@ void pass_what_is_read(llvm::Function& process, const top_description& top) {
     if (reach(module.getDataLayout(), size).goes_beyond(*call->getArgOperand(1), 0))
       refuse(
           top.place,
-          fmt::format("parameter '{}' is a pointer to more than one value: pass data through hls::stream references; "
-                      "a few values can be an array that is written with its size",
+          fmt::format("parameter '{}' is a pointer to more than one value: pass data through hls::stream references, "
+                      "or as an array that is written with its size",
                       top.parameters.at(index_of(*call))));
     call->eraseFromParent();
   }

@@ -5,6 +5,10 @@
 #include <llvm/IR/Constants.h>
 #include <llvm/IR/Instructions.h>
 
+#include <set>
+
+#include "frontend/pragmas.hpp"
+
 namespace epiline::frontend {
 
 namespace {
@@ -43,8 +47,8 @@ std::vector<llvm::StringRef> split_parameters(llvm::StringRef list) {
   return parts;
 }
 
-/// `EXPRESSION` of `TYPE NAME[EXPRESSION]`, with or without further dimensions; empty for everything else.
-std::string array_size(llvm::StringRef parameter) {
+/// The name and the first brackets' EXPRESSION of `TYPE NAME[EXPRESSION]`; both empty for everything else.
+std::pair<std::string, std::string> name_and_size(llvm::StringRef parameter) {
   parameter = parameter.rtrim();
   const auto ends_with_brackets = [&](std::size_t at) {
     while (at < parameter.size() && parameter[at] == '[')
@@ -54,10 +58,12 @@ std::string array_size(llvm::StringRef parameter) {
   std::size_t open = parameter.find('[');
   while (open != llvm::StringRef::npos && !ends_with_brackets(open))
     open = parameter.find('[', closing(parameter, open));
-  if (open == llvm::StringRef::npos) return "";
+  if (open == llvm::StringRef::npos) return {};
   const llvm::StringRef before = parameter.take_front(open).rtrim();
-  if (before.empty() || !is_of_name(before.back())) return "";
-  return parameter.slice(open + 1, closing(parameter, open)).trim().str();
+  if (before.empty() || !is_of_name(before.back())) return {};
+  std::size_t start = before.size();
+  while (start > 0 && is_of_name(before[start - 1])) --start;
+  return {before.drop_front(start).str(), parameter.slice(open + 1, closing(parameter, open)).trim().str()};
 }
 
 std::string without_line_markers(const std::string& preprocessed) {
@@ -66,24 +72,29 @@ std::string without_line_markers(const std::string& preprocessed) {
   while (!rest.empty()) {
     const auto [line, after] = rest.split('\n');
     rest = after;
-    if (!line.starts_with("#")) text += line.str() + "\n";
+    if (!line.starts_with("# ")) text += line.str() + "\n";
   }
   return text;
 }
 
-/// What stands in the brackets of the parameters of the function of that name, where it is defined.
-std::vector<std::string> sizes_in_definition(llvm::StringRef text, llvm::StringRef name) {
-  for (std::size_t at = text.find(name); at != llvm::StringRef::npos; at = text.find(name, at + 1)) {
+/// The parameters of the function of that name where it is defined, behind all headers, which may have one of that
+/// name.
+std::vector<array_parameter> in_definition(llvm::StringRef text, llvm::StringRef name) {
+  for (std::size_t at = text.rfind(name); at != llvm::StringRef::npos; at = text.take_front(at).rfind(name)) {
     if (at > 0 && is_of_name(text[at - 1])) continue;
     const std::size_t open = text.find_first_not_of(" \t\n", at + name.size());
     if (open == llvm::StringRef::npos || text[open] != '(') continue;
     const std::size_t close = closing(text, open);
     if (close == llvm::StringRef::npos) continue;
-    if (!text.drop_front(close + 1).ltrim().starts_with("{")) continue;  // a declaration or a call
-    std::vector<std::string> sizes;
-    for (const llvm::StringRef parameter : split_parameters(text.slice(open + 1, close)))
-      sizes.push_back(array_size(parameter));
-    return sizes;
+    const llvm::StringRef body = text.drop_front(close + 1).ltrim();
+    if (!body.starts_with("{")) continue;  // a declaration or a call
+    const std::set<std::string> streams = stream_ports(body.take_front(closing(body, 0)).str());
+    std::vector<array_parameter> parameters;
+    for (const llvm::StringRef parameter : split_parameters(text.slice(open + 1, close))) {
+      const auto [parameter_name, size] = name_and_size(parameter);
+      parameters.push_back({size, streams.count(parameter_name) != 0});
+    }
+    return parameters;
   }
   return {};
 }
@@ -101,27 +112,28 @@ unsigned number(const llvm::CallInst& call, unsigned operand) {
   return static_cast<unsigned>(llvm::cast<llvm::ConstantInt>(call.getArgOperand(operand))->getZExtValue());
 }
 
+/// What the call of the top notes: a number by the position of a parameter.
+std::map<unsigned, unsigned> counts_noted(const llvm::Module& module, llvm::StringRef name) {
+  std::map<unsigned, unsigned> counts;
+  for (const llvm::CallInst* call : notes(module, name)) counts[number(*call, 0)] = number(*call, 1);
+  return counts;
+}
+
 }  // namespace
 
-std::vector<std::vector<std::string>> sizes_of_array_parameters(const std::string& preprocessed,
+std::vector<std::vector<array_parameter>> find_array_parameters(const std::string& preprocessed,
                                                                 const std::vector<std::string>& tops) {
   const std::string text = without_line_markers(preprocessed);
-  std::vector<std::vector<std::string>> sizes;
-  for (const std::string& top : tops) sizes.push_back(sizes_in_definition(text, top.substr(top.rfind(':') + 1)));
-  return sizes;
+  std::vector<std::vector<array_parameter>> parameters;
+  for (const std::string& top : tops) parameters.push_back(in_definition(text, top.substr(top.rfind(':') + 1)));
+  return parameters;
 }
 
-std::map<unsigned, unsigned> stream_arrays(llvm::Module& module) {
-  std::map<unsigned, unsigned> arrays;
-  for (const llvm::CallInst* call : notes(module, "__epiline_array")) arrays[number(*call, 0)] = number(*call, 1);
-  return arrays;
-}
+std::map<unsigned, unsigned> stream_arrays(llvm::Module& module) { return counts_noted(module, "__epiline_array"); }
 
-std::map<unsigned, unsigned> all_arrays(llvm::Module& module) {
-  std::map<unsigned, unsigned> arrays = stream_arrays(module);
-  for (const llvm::CallInst* call : notes(module, "__epiline_values")) arrays[number(*call, 0)] = number(*call, 1);
-  return arrays;
-}
+std::map<unsigned, unsigned> value_arrays(llvm::Module& module) { return counts_noted(module, "__epiline_values"); }
+
+std::map<unsigned, unsigned> data_arrays(llvm::Module& module) { return counts_noted(module, "__epiline_data"); }
 
 unsigned returned_position(llvm::Module& module) {
   const std::vector<const llvm::CallInst*> calls = notes(module, "__epiline_returned");

@@ -80,8 +80,8 @@ class access_collector {
         return;
       }
     }
-    while (type != source && !path.empty() && path.back().container == source && path.back().constant == 0 &&
-           path.back().dynamic == nullptr && !is_first_of(type, source)) {
+    while (type != source && !path.empty() && path.back().container == source && is_at_first(path.back()) &&
+           !is_first_of(type, source)) {
       type = path.back().container;  // a pointer to the first member stands for the whole
       path.pop_back();
     }
@@ -138,6 +138,11 @@ class access_collector {
     }
   }
 
+  static bool is_at_first(const path_step& step) {
+    const auto* structure = llvm::dyn_cast<llvm::StructType>(step.container);
+    return step.dynamic == nullptr && step.constant == (structure == nullptr ? 0 : first_member(*structure));
+  }
+
   static bool is_zero(llvm::Value* index) {
     auto* constant = llvm::dyn_cast<llvm::ConstantInt>(index);
     return constant != nullptr && constant->isZero();
@@ -151,10 +156,17 @@ class access_collector {
     return true;
   }
 
+  /// The first one that has a size: the others mark something.
+  static std::int64_t first_member(const llvm::StructType& structure) {
+    unsigned member = 0;
+    while (member + 1 < structure.getNumElements() && structure.getElementType(member)->isEmptyTy()) ++member;
+    return member;
+  }
+
   static bool step_into_first(path_steps& path, llvm::Type*& type) {
     auto* structure = llvm::dyn_cast<llvm::StructType>(type);
     if (!llvm::isa<llvm::ArrayType>(type) && (structure == nullptr || structure->getNumElements() == 0)) return false;
-    path.push_back({type, 0, nullptr});
+    path.push_back({type, structure == nullptr ? 0 : first_member(*structure), nullptr});
     type = step_type(path.back());
     return true;
   }

@@ -2,9 +2,37 @@
 // Parameters that are arrays, for what calls a top: in hardware as natively. A function's array is a pointer to the
 // compiler; how many elements there are is read from the text.
 
+#include <hls_stream.h>
+
+#include <type_traits>
+
 namespace hls::detail {
 
-/// The number of elements in each parameter that is written as an array, or 0, by position.
+/// A longer array is data, which comes and goes element by element; a shorter one is one value.
+inline constexpr unsigned long most_array_bytes = 128;
+
+template <class T>
+inline constexpr bool is_stream = false;
+template <class T, int Depth>
+inline constexpr bool is_stream<hls::stream<T, Depth>> = true;
+
+/// In place of the parameter: an array A that is data.
+template <class A>
+struct data_of;
+
+/// An array's reference, or data_of where it is data.
+template <class A, bool IsData = (sizeof(A) > most_array_bytes)>
+struct value_or_data {
+  using type = A&;
+};
+template <class A>
+struct value_or_data<A, true> {
+  using element = std::remove_all_extents_t<A>;
+  using type = std::conditional_t<is_stream<std::remove_cv_t<element>> || std::is_pointer_v<element>, A&, data_of<A>>;
+};
+
+/// The number of elements in each parameter that is written as an array, or 0, by position; negative: it is data,
+/// whatever its size.
 template <int... Counts>
 struct element_counts {
   static constexpr int at(int position) {
@@ -13,18 +41,19 @@ struct element_counts {
   }
 };
 
-/// A parameter's type P as it is written, an array of `Count` elements; with 0 it is P.
+/// A parameter's type P as it is written, an array of `Count` elements or data_of it; with 0 it is P.
 template <class P, int Count>
 struct as_written {
   using type = P;
 };
 template <class T, int Count>
-struct as_written<T*, Count> {
-  using type = T (&)[Count];
-};
+struct as_written<T*, Count>
+    : value_or_data<T[Count < 0 ? -Count : Count], (Count<0 || sizeof(T) * Count> most_array_bytes)> {};
 template <class T>
 struct as_written<T*, 0> {
   using type = T*;
 };
+template <class T, decltype(sizeof(0)) Size, int Count>
+struct as_written<T (&)[Size], Count> : value_or_data<T[Size]> {};
 
 }  // namespace hls::detail

@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstring>
 #include <exception>
 #include <memory>
@@ -125,6 +126,10 @@ class slot {
   virtual std::vector<token> take() { return {}; }
   virtual const hls::detail::stream_base* stream() const { return nullptr; }
   virtual unsigned width() const = 0;
+  /// An array's elements come before a call, or go after it.
+  virtual void before_call() {}
+  virtual void after_call() {}
+  virtual std::uint64_t tokens_of_call() const { return 0; }
 };
 
 /// Calls f for each element of an array, or for the value.
@@ -236,6 +241,37 @@ class stream_slot : public slot {
  private:
   hls::stream<T, Depth>& stream_;
 };
+
+/// An array whose elements are tokens.
+template <class T, std::size_t Size, int Index>
+class data_slot : public stream_slot<std::remove_cv_t<std::remove_all_extents_t<T>>, 0, Index> {
+  using element = std::remove_cv_t<std::remove_all_extents_t<T>>;
+
+ public:
+  data_slot() : stream_slot<element, 0, Index>(elements_) {}
+  auto& pass() { return values_; }
+  void before_call() override {
+    visit(values_, [&](element& value) { value = elements_.read(); });
+  }
+  void after_call() override {
+    visit(values_, [&](const element& value) { elements_.write(value); });
+  }
+  std::uint64_t tokens_of_call() const override { return sizeof(values_) / sizeof(element); }
+
+ private:
+  template <class U, class F>
+  static void visit(U& value, F&& f) {
+    if constexpr (std::is_array_v<U>)
+      for (auto& part : value) visit(part, f);
+    else
+      f(value);
+  }
+  hls::stream<element> elements_;
+  std::remove_cv_t<T> values_[Size]{};
+};
+
+template <class T, std::size_t Size, int Index>
+class slot_of<hls::detail::data_of<T[Size]>, Index> : public data_slot<T, Size, Index> {};
 
 /// A parameter: what is passed, and its slots.
 template <class P, int Index>
@@ -359,8 +395,12 @@ class session {
     is_waiting_ = false;
     empty_answers_ = 0;
     try {
+      for (std::size_t i = 0; i < slots_.size(); ++i)
+        if (parameters_[i].what == role::input) slots_[i]->before_call();
       call_(context_);
       hls::run_tasks();
+      for (std::size_t i = 0; i < slots_.size(); ++i)
+        if (parameters_[i].what == role::output) slots_[i]->after_call();
     } catch (const hls::stream_error&) {
       end_of_input();
     }
@@ -454,6 +494,7 @@ class session {
 
   // ---- random stimulus ----------------------------------------------------------------------------------------
   [[noreturn]] void run_random() {
+    for (const slot* one : slots_) wanted_ = std::max(wanted_, one->tokens_of_call());
     most_tokens_ = 2 * wanted_;
     while (exchange_.calls < wanted_ && most_read() < wanted_) {
       bool any_blocked = false, good = false;

@@ -70,6 +70,9 @@ class source_run {
   [[nodiscard]] bool is_argument(int number) const {
     return static_cast<int>(parameters_[static_cast<std::size_t>(number)].port) == call_port_;
   }
+  [[nodiscard]] bool is_input(int number) const {
+    return reads_.count(static_cast<unsigned>(parameters_[static_cast<std::size_t>(number)].port)) != 0;
+  }
   token argument(int number, unsigned width) {
     return part_of(call_, parameters_[static_cast<std::size_t>(number)].offset, width);
   }
@@ -279,6 +282,12 @@ inline __attribute__((used)) void epiline_check_result(int parameter, const std:
 }
 inline __attribute__((used)) void epiline_check_read(const void* stream, std::uint64_t* words, unsigned width) {
   epiline::check::fill(words, epiline::check::source_run::current()->read(stream), width);
+}
+inline __attribute__((used)) bool epiline_check_is_given(int parameter) {
+  return epiline::check::source_run::current()->is_input(parameter);
+}
+inline __attribute__((used)) bool epiline_check_is_taken(int parameter) {
+  return !epiline::check::source_run::current()->is_input(parameter);
 }
 inline __attribute__((used)) bool epiline_check_empty(const void* stream) {
   return epiline::check::source_run::current()->is_empty(stream);

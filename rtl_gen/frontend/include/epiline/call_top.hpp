@@ -5,8 +5,8 @@
 // The parameters become ports by their types: a stream by reference is a port of its own; scalars by value (or const
 // reference) are the fields of one argument token a call; scalars by reference, and what the top returns, are output
 // streams of one token a call. A pointer to one scalar and a short array of them are references; those that the top
-// only reads are arguments, as the frontend finds out. An array of streams counts as that many parameters, and so does
-// what is returned.
+// only reads are arguments, as the frontend finds out. A long array is a stream of its elements, into the call or out
+// of it. An array of streams counts as that many parameters, and so does what is returned.
 
 #include <ap_int.h>
 #include <detail/stream_arrays.h>
@@ -20,6 +20,10 @@ void __epiline_unwritten(int index, void* value, const void* type) noexcept;
 void __epiline_unsupported_parameter(int index, int reason) noexcept;
 void __epiline_array(int position, int count) noexcept;
 void __epiline_values(int position, int count) noexcept;
+void __epiline_data(int position, int count) noexcept;
+bool __epiline_is_given(int index) noexcept;
+bool __epiline_is_taken(int index) noexcept;
+void* __epiline_elements(int index, void* values) noexcept;
 void __epiline_single(int index, const void* value, long size) noexcept;
 void __epiline_returned(int position) noexcept;
 }
@@ -125,10 +129,7 @@ struct unsupported_parameter {
   unsupported_parameter() { __epiline_unsupported_parameter(Index, static_cast<int>(Reason)); }
 };
 
-template <class T>
-inline constexpr bool is_stream = false;
-template <class T, int Depth>
-inline constexpr bool is_stream<hls::stream<T, Depth>> = true;
+using hls::detail::is_stream;
 
 template <class P, int Index>
 struct single_value : parameter<P, Index> {  // behind a pointer
@@ -152,9 +153,6 @@ struct parameter<T*, Index> : std::remove_pointer_t<decltype(pointer_parameter<T
 template <int Index>
 struct parameter<const bool*, Index> : unsupported_parameter<Index, reason::pointer> {};
 
-/// More than this is data, which comes and goes word by word.
-inline constexpr unsigned long most_array_bytes = 128;
-
 // The payload that an array is.
 template <class T, unsigned long Size>
 struct array_token {
@@ -177,10 +175,48 @@ struct array_argument {
   void finish() const {}
 };
 
+// Data: the elements come before the call if the top reads them, and go after it if the top writes them, which the
+// frontend finds out: accesses of its own go by way of elements(), to tell them from those of the top. What a call does
+// not write is as an earlier one left it, at first 0.
+template <class T, unsigned long Size, int Index>
+struct array_data {
+  using element = std::remove_all_extents_t<T>;
+  using port = stream_port<Index, hls::stream<element>>;
+  static T values[Size];
+  array_data() {
+    __epiline_port(Index, &port::object);
+    if (__epiline_is_given(Index)) read(*elements());
+  }
+  T (&pass())[Size] { return values; }
+  void finish() const {
+    if (__epiline_is_taken(Index)) write(*elements());
+  }
+
+ private:
+  static T (*elements())[Size] { return static_cast<T(*)[Size]>(__epiline_elements(Index, &values)); }
+
+  template <class U>
+  static void read(U& value) {
+    if constexpr (std::is_array_v<U>)
+      for (unsigned long i = 0; i < std::extent_v<U>; ++i) read(value[i]);
+    else
+      value = port::object.read();
+  }
+  template <class U>
+  static void write(const U& value) {
+    if constexpr (std::is_array_v<U>)
+      for (unsigned long i = 0; i < std::extent_v<U>; ++i) write(value[i]);
+    else
+      port::object.write(value);
+  }
+};
+template <class T, unsigned long Size, int Index>
+T array_data<T, Size, Index>::values[Size];
+
 template <template <class, unsigned long, int> class Kind, class T, unsigned long Size, int Index>
 constexpr auto array_parameter() {
   using element = std::remove_all_extents_t<T>;
-  if constexpr (sizeof(T[Size]) > most_array_bytes || std::is_pointer_v<element> || is_stream<element>)
+  if constexpr (std::is_pointer_v<element> || is_stream<element> || Size == 0)
     return static_cast<unsupported_parameter<Index, reason::array>*>(nullptr);
   else
     return static_cast<Kind<T, Size, Index>*>(nullptr);
@@ -192,6 +228,10 @@ struct parameter<T (&)[Size], Index>
 template <class T, unsigned long Size, int Index>
 struct parameter<const T (&)[Size], Index>
     : std::remove_pointer_t<decltype(array_parameter<array_argument, T, Size, Index>())> {};
+template <class T, unsigned long Size, int Index>
+struct parameter<hls::detail::data_of<T[Size]>, Index> : array_data<T, Size, Index> {};
+template <class T, unsigned long Size, int Index>
+struct parameter<hls::detail::data_of<const T[Size]>, Index> : array_data<T, Size, Index> {};
 template <class T, int Depth, int Index>
 struct parameter<hls::stream<T, Depth>, Index> : unsupported_parameter<Index, reason::stream_by_value> {};
 template <class T, int Depth, int Index>
@@ -219,11 +259,18 @@ constexpr int index_of(int position) {
   return index;
 }
 
+template <class P>
+inline constexpr int elements_of_data = 0;
+template <class T, unsigned long Size>
+inline constexpr int elements_of_data<hls::detail::data_of<T[Size]>> = Size;
+
 template <class P, int Position>
 void note_array() {
   using array = std::remove_reference_t<P>;
   if constexpr (streams_in_array<P> != 0)
     __epiline_array(Position, streams_in_array<P>);
+  else if constexpr (elements_of_data<P> != 0)
+    __epiline_data(Position, elements_of_data<P>);
   else if constexpr (std::is_array_v<array>)
     __epiline_values(Position, std::extent_v<array>);
 }

@@ -1,0 +1,231 @@
+#include "frontend/data_arrays.hpp"
+
+#include <fmt/format.h>
+#include <llvm/IR/DebugInfoMetadata.h>
+#include <llvm/IR/Dominators.h>
+#include <llvm/IR/IRBuilder.h>
+#include <llvm/IR/IntrinsicInst.h>
+#include <llvm/IR/Module.h>
+#include <llvm/IR/ReplaceConstant.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "frontend/calls.hpp"
+#include "frontend/ordered_access.hpp"
+
+namespace epiline::frontend {
+
+namespace {
+
+/// What the top does with an array. What call_top.hpp does goes by way of __epiline_elements.
+class array_uses {
+ public:
+  explicit array_uses(const llvm::Value& array) { follow(array); }
+
+  [[nodiscard]] bool is_written() const { return !writes_.empty(); }
+  /// The first place where elements are read that nobody has written yet; null: there is none.
+  [[nodiscard]] const llvm::Instruction* first_read_of_given() const {
+    for (const llvm::Instruction* read : reads_)
+      if (std::none_of(writes_.begin(), writes_.end(),
+                       [&](const llvm::Instruction* write) { return comes_before(*write, *read); }))
+        return read;
+    return nullptr;
+  }
+
+ private:
+  static bool comes_before(const llvm::Instruction& write, const llvm::Instruction& read) {
+    if (write.getFunction() != read.getFunction()) return false;
+    // Dominators want a function that they may change; these here change nothing.
+    return llvm::DominatorTree(const_cast<llvm::Function&>(*read.getFunction())).dominates(&write, &read);
+  }
+
+  void follow(const llvm::Value& pointer) {
+    if (!seen_.insert(&pointer).second) return;
+    for (const llvm::Use& use : pointer.uses()) {
+      const llvm::User* const user = use.getUser();
+      if (llvm::isa<llvm::GEPOperator, llvm::CastInst, llvm::PHINode, llvm::SelectInst>(user)) {
+        follow(*user);
+      } else if (const auto* call = llvm::dyn_cast<llvm::CallBase>(user)) {
+        visit_call(*call, use);
+      } else if (const auto* instruction = llvm::dyn_cast<llvm::Instruction>(user)) {
+        (llvm::isa<llvm::StoreInst>(user) ? writes_ : reads_).push_back(instruction);
+      }
+    }
+  }
+
+  void visit_call(const llvm::CallBase& call, const llvm::Use& use) {
+    if (calls_named(call, "__epiline_elements") || calls_named(call, "__epiline_pragma_")) return;
+    if (const auto* intrinsic = llvm::dyn_cast<llvm::IntrinsicInst>(&call);
+        intrinsic != nullptr && intrinsic->isLifetimeStartOrEnd())
+      return;
+    const bool is_first = call.getArgOperandNo(&use) == 0;
+    const llvm::Function* const callee = call.getCalledFunction();
+    if (callee != nullptr && !callee->isDeclaration())
+      follow(*callee->getArg(call.getArgOperandNo(&use)));
+    else if (llvm::isa<llvm::MemIntrinsic>(call) ? is_first : calls_named(call, "__epiline_stream_read"))
+      writes_.push_back(&call);
+    else
+      reads_.push_back(&call);
+  }
+
+  std::set<const llvm::Value*> seen_;
+  std::vector<const llvm::Instruction*> reads_, writes_;
+};
+
+struct data_array {
+  std::string name;
+  llvm::GlobalVariable* values;
+  bool is_given, is_taken;  // in whole, before or after the call
+  llvm::Value* stream = nullptr;
+};
+
+data_array describe(llvm::GlobalVariable& values, const std::string& name, const source_place& place) {
+  const array_uses uses(values);
+  const llvm::Instruction* const read = uses.first_read_of_given();
+  if (uses.is_written() && read != nullptr)
+    refuse(
+        place_of(*read),
+        fmt::format("the array '{}', a parameter of the top, is read here before it is written, and written as well: a "
+                    "port has one direction: give results in an array of their own, or work on a copy",
+                    name));
+  if (!uses.is_written() && read == nullptr)
+    refuse(place, fmt::format("the array '{}' is neither read nor written: remove the parameter", name));
+  return {name, &values, !uses.is_written(), uses.is_written()};
+}
+
+std::vector<llvm::Constant*> variables_of(const std::map<unsigned, data_array>& arrays) {
+  std::vector<llvm::Constant*> variables;
+  for (const auto& [index, array] : arrays) variables.push_back(array.values);
+  return variables;
+}
+
+/// The call that moves a token between a stream and a variable, and tells its type.
+const llvm::CallInst* transfer_of(const data_array& array, const char* name, llvm::Function& process) {
+  for (const llvm::CallInst* call : calls_of(*process.getParent(), name, &process))
+    if (call->getArgOperand(0)->stripPointerCasts() == array.stream->stripPointerCasts()) return call;
+  return nullptr;
+}
+
+bool is_called_once(const llvm::Function& callee, const llvm::Function& process) {
+  const std::set<const llvm::Function*> reached = reached_from(process);
+  return std::count_if(callee.user_begin(), callee.user_end(), [&](const llvm::User* user) {
+           const auto* call = llvm::dyn_cast<llvm::CallInst>(user);
+           return call == nullptr || reached.count(call->getFunction()) != 0;
+         }) == 1;
+}
+
+/// Where an array is used: in the top, or in the one process that it is passed to.
+struct passed_array {
+  llvm::Value* pointer;
+  llvm::Function* function;
+  llvm::Use* operand;  // of the process' call, if any
+};
+
+passed_array passed_on(llvm::Value& array, llvm::Function& process) {
+  if (array.hasOneUse())
+    if (auto* const call = llvm::dyn_cast<llvm::CallInst>(array.user_back()))
+      if (llvm::Function* const callee = called_by(*call);
+          callee != nullptr && !callee->isDeclaration() && is_called_once(*callee, process))
+        return {callee->getArg(call->getArgOperandNo(&*array.use_begin())), callee, &*array.use_begin()};
+  return {&array, &process, nullptr};
+}
+
+/// Lets the accesses of each element be one of the stream, by way of a variable of one element.
+void access_in_order(data_array& array, llvm::Function& process, llvm::FunctionAnalysisManager& analyses) {
+  llvm::Type* element = array.values->getValueType();
+  std::uint64_t count = 1;
+  for (; element->isArrayTy(); element = element->getArrayElementType()) count *= element->getArrayNumElements();
+  const passed_array where = passed_on(*array.values, process);
+  const std::vector<element_access> accesses =
+      accesses_in_order(*where.pointer, *element, count, *where.function, analyses);
+  const llvm::CallInst* const transfer =
+      transfer_of(array, array.is_given ? "__epiline_stream_read" : "__epiline_stream_write", process);
+  if (accesses.empty() || transfer == nullptr) return;
+  llvm::Value* stream = array.stream;
+  if (where.operand != nullptr) {  // the process is given the stream instead
+    where.operand->set(array.stream);
+    stream = where.pointer;
+  }
+  llvm::IRBuilder<> builder(&*where.function->getEntryBlock().getFirstInsertionPt());
+  llvm::Value* const variable = builder.CreateAlloca(element, nullptr, array.name);
+  auto* const access =
+      llvm::cast<llvm::Instruction>((array.is_given ? accesses.front() : accesses.back()).pointer->getUser());
+  builder.SetInsertPoint(array.is_given ? access : access->getNextNode());
+  builder.SetCurrentDebugLocation(access->getDebugLoc());
+  llvm::CallInst* const token = builder.CreateCall(transfer->getFunctionType(), transfer->getCalledOperand(),
+                                                   {stream, variable, transfer->getArgOperand(2)});
+  token->setAttributes(transfer->getAttributes());
+  for (const element_access& one : accesses) {
+    builder.SetInsertPoint(llvm::cast<llvm::Instruction>(one.pointer->getUser()));
+    one.pointer->set(builder.CreateConstInBoundsGEP1_64(builder.getInt8Ty(), variable, one.offset));
+  }
+  array.is_given = array.is_taken = false;
+}
+
+/// In reports and in the Verilog the array is the parameter.
+void rename(llvm::GlobalVariable& variable, const std::string& name, const source_place& place) {
+  variable.setName(name);
+  llvm::SmallVector<llvm::DIGlobalVariableExpression*, 1> described;
+  variable.getDebugInfo(described);
+  if (described.empty()) return;
+  const llvm::DIGlobalVariable& old = *described.front()->getVariable();
+  llvm::LLVMContext& context = variable.getContext();
+  auto* const renamed =
+      llvm::DIGlobalVariable::getDistinct(context, nullptr, name, "", llvm::DIFile::get(context, place.file, ""),
+                                          place.line, old.getType(), true, true, nullptr, nullptr, 0, nullptr);
+  variable.eraseMetadata(llvm::LLVMContext::MD_dbg);
+  variable.addDebugInfo(llvm::DIGlobalVariableExpression::get(context, renamed, described.front()->getExpression()));
+}
+
+}  // namespace
+
+bool connect_data_arrays(llvm::Function& process, const top_description& top, llvm::FunctionAnalysisManager& analyses,
+                         bool has_processes) {
+  llvm::Module& module = *process.getParent();
+  const auto index_of = [](const llvm::CallInst& call) {
+    return static_cast<unsigned>(llvm::cast<llvm::ConstantInt>(call.getArgOperand(0))->getZExtValue());
+  };
+  std::map<unsigned, data_array> arrays;
+  const std::vector<llvm::CallInst*> elements = calls_of(module, "__epiline_elements", &process);
+  for (llvm::CallInst* call : elements) {
+    const unsigned index = index_of(*call);
+    auto& values = *llvm::cast<llvm::GlobalVariable>(call->getArgOperand(1)->stripPointerCasts());
+    if (arrays.count(index) == 0) arrays.emplace(index, describe(values, top.parameters.at(index), top.place));
+  }
+  if (arrays.empty()) return false;
+
+  llvm::convertUsersOfConstantsToInstructions(variables_of(arrays), &process);
+  for (llvm::CallInst* call : calls_of(module, "__epiline_port", &process))
+    if (const auto array = arrays.find(index_of(*call)); array != arrays.end())
+      array->second.stream = call->getArgOperand(1);
+  for (llvm::CallInst* call : elements)
+    call->setArgOperand(1, llvm::PoisonValue::get(call->getArgOperand(1)->getType()));
+  for (auto& [index, array] : arrays) access_in_order(array, process, analyses);
+
+  for (llvm::CallInst* call : elements) {
+    call->replaceAllUsesWith(arrays.at(index_of(*call)).values);
+    call->eraseFromParent();
+  }
+  for (const char* question : {"__epiline_is_given", "__epiline_is_taken"})
+    for (llvm::CallInst* call : calls_of(module, question, &process)) {
+      const data_array& array = arrays.at(index_of(*call));
+      const bool answer = question == std::string("__epiline_is_given") ? array.is_given : array.is_taken;
+      call->replaceAllUsesWith(llvm::ConstantInt::getBool(call->getType(), answer));
+      call->eraseFromParent();
+    }
+  for (const auto& [index, array] : arrays) {
+    if (has_processes) {
+      llvm::IRBuilder<> builder(&*process.getEntryBlock().getFirstInsertionPt());
+      array.values->replaceAllUsesWith(
+          builder.CreateAlloca(array.values->getValueType(), nullptr, array.name + "_values"));
+    } else {
+      rename(*array.values, array.name, top.place);
+    }
+  }
+  return true;
+}
+
+}  // namespace epiline::frontend

@@ -1,0 +1,188 @@
+#include "frontend/ordered_access.hpp"
+
+#include <llvm/Analysis/LoopInfo.h>
+#include <llvm/Analysis/ScalarEvolution.h>
+#include <llvm/Analysis/ScalarEvolutionExpressions.h>
+#include <llvm/IR/Dominators.h>
+#include <llvm/IR/Module.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "frontend/calls.hpp"
+
+namespace epiline::frontend {
+
+namespace {
+
+llvm::Instruction& instruction_of(const llvm::Use& pointer) {
+  return *llvm::cast<llvm::Instruction>(pointer.getUser());
+}
+
+bool is_payload(const llvm::Use& pointer) {
+  const auto* call = llvm::dyn_cast<llvm::CallInst>(pointer.getUser());
+  return call != nullptr && calls_named(*call, "__epiline_stream_") && call->getArgOperandNo(&pointer) == 1;
+}
+
+bool is_write(const llvm::Use& pointer) {
+  const llvm::Instruction& user = instruction_of(pointer);
+  return llvm::isa<llvm::StoreInst>(user) || calls_named(user, "__epiline_stream_read");
+}
+
+/// The pointers by which elements are accessed; false: the array is used for something else.
+bool find_accesses(llvm::Value& array, std::vector<llvm::Use*>& accesses) {
+  for (llvm::Use& use : array.uses()) {
+    llvm::User* const user = use.getUser();
+    if (llvm::isa<llvm::GEPOperator>(user)) {
+      if (!find_accesses(*user, accesses)) return false;
+      continue;
+    }
+    const auto* store = llvm::dyn_cast<llvm::StoreInst>(user);
+    if (!llvm::isa<llvm::LoadInst>(user) && (store == nullptr || store->getValueOperand() == &array) &&
+        !is_payload(use))
+      return false;
+    accesses.push_back(&use);
+  }
+  return true;
+}
+
+class order_check {
+ public:
+  order_check(llvm::Value& array, llvm::Type& element, std::uint64_t count, llvm::Function& function,
+              llvm::FunctionAnalysisManager& analyses)
+      : function_(function),
+        layout_(function.getParent()->getDataLayout()),
+        loops_(analyses.getResult<llvm::LoopAnalysis>(function)),
+        dominators_(analyses.getResult<llvm::DominatorTreeAnalysis>(function)),
+        evolution_(analyses.getResult<llvm::ScalarEvolutionAnalysis>(function)),
+        array_(array),
+        element_(element),
+        element_bytes_(layout_.getTypeAllocSize(&element)),
+        count_(count) {}
+
+  std::vector<element_access> in_order(std::vector<llvm::Use*> pointers) {
+    const auto is_elsewhere = [&](const llvm::Use* pointer) {
+      return instruction_of(*pointer).getParent() != instruction_of(*pointers.front()).getParent() ||
+             is_write(*pointer) != is_write(*pointers.front());
+    };
+    if (pointers.empty() || std::any_of(pointers.begin(), pointers.end(), is_elsewhere)) return {};
+    std::sort(pointers.begin(), pointers.end(), [](const llvm::Use* a, const llvm::Use* b) {
+      return instruction_of(*a).comesBefore(&instruction_of(*b));
+    });
+    std::vector<element_access> accesses;
+    for (llvm::Use* pointer : pointers) {
+      const std::optional<std::uint64_t> offset = offset_in_element(*pointer);
+      if (!offset || *offset + bytes_of(*pointer) > element_bytes_) return {};
+      accesses.push_back({pointer, *offset});
+    }
+    if (is_write(*pointers.front()) && !write_all(accesses)) return {};
+    return accesses;
+  }
+
+ private:
+  /// The offset of an access in the element that it reaches, if it reaches each element once and in order.
+  std::optional<std::uint64_t> offset_in_element(const llvm::Use& pointer) {
+    const llvm::SCEV* place = evolution_.getMinusSCEV(evolution_.getSCEV(pointer.get()), evolution_.getSCEV(&array_));
+    // From the innermost loop outwards: a loop's step is what the loops inside of it go through.
+    std::uint64_t passed = element_bytes_;
+    const llvm::BasicBlock* block = instruction_of(pointer).getParent();
+    const llvm::Loop* loop = loops_.getLoopFor(block);
+    for (; loop != nullptr && !loop->hasNoExitBlocks(); loop = loop->getParentLoop()) {
+      const std::uint64_t passes = passes_of(*loop, *block);
+      if (passes == 0) return {};
+      if (passes > 1) {
+        const auto* steps = llvm::dyn_cast<llvm::SCEVAddRecExpr>(place);
+        if (steps == nullptr || steps->getLoop() != loop || !steps->isAffine()) return {};
+        const auto* step = llvm::dyn_cast<llvm::SCEVConstant>(steps->getStepRecurrence(evolution_));
+        if (step == nullptr || step->getAPInt() != passed) return {};
+        place = steps->getStart();
+      }
+      passed *= passes;
+      if (passed > element_bytes_ * count_) return {};
+      block = loop->getHeader();
+    }
+    const llvm::BasicBlock* const end = loop != nullptr ? loop->getLoopLatch() : only_return();
+    if (end == nullptr || !dominators_.dominates(block, end) || passed != element_bytes_ * count_) return {};
+    const auto* offset = llvm::dyn_cast<llvm::SCEVConstant>(place);
+    if (offset == nullptr || offset->getAPInt().uge(element_bytes_)) return {};
+    return offset->getAPInt().getZExtValue();
+  }
+
+  /// How often a block is reached in a loop, once in each pass; 0: it is not known, or not once.
+  std::uint64_t passes_of(const llvm::Loop& loop, const llvm::BasicBlock& block) {
+    const llvm::BasicBlock* const latch = loop.getLoopLatch();
+    const llvm::BasicBlock* const exiting = loop.getExitingBlock();
+    if (latch == nullptr || !dominators_.dominates(&block, latch)) return 0;
+    // A loop that is left at its end, or at its beginning before anything is done.
+    const bool at_end = exiting == latch, at_beginning = exiting == loop.getHeader() && &block != exiting;
+    const auto* again = llvm::dyn_cast<llvm::SCEVConstant>(evolution_.getBackedgeTakenCount(&loop));
+    if ((!at_end && !at_beginning) || again == nullptr) return 0;
+    return again->getAPInt().getLimitedValue(count_) + (at_end ? 1 : 0);
+  }
+
+  [[nodiscard]] const llvm::BasicBlock* only_return() const {
+    const llvm::BasicBlock* found = nullptr;
+    for (const llvm::BasicBlock& block : function_) {
+      if (!llvm::isa<llvm::ReturnInst>(block.getTerminator())) continue;
+      if (found != nullptr) return nullptr;
+      found = &block;
+    }
+    return found;
+  }
+
+  std::uint64_t bytes_of(const llvm::Use& pointer) const {
+    llvm::Instruction& user = instruction_of(pointer);
+    if (!is_payload(pointer)) return layout_.getTypeStoreSize(llvm::getLoadStoreType(&user));
+    return layout_.getTypeAllocSize(
+        llvm::cast<llvm::GlobalVariable>(llvm::cast<llvm::CallInst>(user).getArgOperand(2)->stripPointerCasts())
+            ->getValueType());
+  }
+
+  /// Whether the writes reach all numbers of the element: the others would be as they were.
+  bool write_all(const std::vector<element_access>& accesses) const {
+    std::map<std::uint64_t, std::uint64_t> written;  // bytes, by offset
+    for (const element_access& access : accesses)
+      written[access.offset] = std::max(written[access.offset], bytes_of(*access.pointer));
+    return reaches_numbers(element_, 0, written);
+  }
+
+  bool reaches_numbers(llvm::Type& type, std::uint64_t offset,
+                       const std::map<std::uint64_t, std::uint64_t>& written) const {
+    if (auto* array = llvm::dyn_cast<llvm::ArrayType>(&type)) {
+      const std::uint64_t step = layout_.getTypeAllocSize(array->getElementType());
+      for (std::uint64_t i = 0; i < array->getNumElements(); ++i)
+        if (!reaches_numbers(*array->getElementType(), offset + i * step, written)) return false;
+      return true;
+    }
+    if (auto* structure = llvm::dyn_cast<llvm::StructType>(&type)) {
+      for (unsigned i = 0; i < structure->getNumElements(); ++i)
+        if (!reaches_numbers(*structure->getElementType(i),
+                             offset + layout_.getStructLayout(structure)->getElementOffset(i), written))
+          return false;
+      return true;
+    }
+    auto next = written.upper_bound(offset);
+    return next != written.begin() && (--next)->first + next->second >= offset + layout_.getTypeStoreSize(&type);
+  }
+
+  llvm::Function& function_;
+  const llvm::DataLayout& layout_;
+  llvm::LoopInfo& loops_;
+  llvm::DominatorTree& dominators_;
+  llvm::ScalarEvolution& evolution_;
+  llvm::Value& array_;
+  llvm::Type& element_;
+  const std::uint64_t element_bytes_, count_;
+};
+
+}  // namespace
+
+std::vector<element_access> accesses_in_order(llvm::Value& array, llvm::Type& element, std::uint64_t count,
+                                              llvm::Function& function, llvm::FunctionAnalysisManager& analyses) {
+  std::vector<llvm::Use*> pointers;
+  if (!find_accesses(array, pointers)) return {};
+  return order_check(array, element, count, function, analyses).in_order(std::move(pointers));
+}
+
+}  // namespace epiline::frontend
