@@ -105,6 +105,7 @@ class compilation {
     std::vector<dataflow::graph> graphs;
     for (frontend::process_source& process : split_.processes) {
       lowered_.push_back(frontend::lower(process));
+      for (const std::string& note : lowered_.back().notes) std::cerr << note << '\n';
       if (checker_) checker_->see_process(lowered_.back());
       graphs.push_back(frontend::build_graph(lowered_.back(), process.name));
     }

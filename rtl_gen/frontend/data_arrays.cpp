@@ -1,6 +1,8 @@
 #include "frontend/data_arrays.hpp"
 
 #include <fmt/format.h>
+#include <llvm/Analysis/LoopInfo.h>
+#include <llvm/Analysis/ScalarEvolution.h>
 #include <llvm/IR/DebugInfoMetadata.h>
 #include <llvm/IR/Dominators.h>
 #include <llvm/IR/IRBuilder.h>
@@ -14,6 +16,7 @@
 #include <vector>
 
 #include "frontend/calls.hpp"
+#include "frontend/loops.hpp"
 #include "frontend/ordered_access.hpp"
 
 namespace epiline::frontend {
@@ -23,7 +26,7 @@ namespace {
 /// What the top does with an array. What call_top.hpp does goes by way of __epiline_elements.
 class array_uses {
  public:
-  explicit array_uses(const llvm::Value& array) { follow(array); }
+  array_uses(const llvm::Value& array, llvm::FunctionAnalysisManager& analyses) : analyses_(analyses) { follow(array); }
 
   [[nodiscard]] bool is_written() const { return !writes_.empty(); }
   /// The first place where elements are read that nobody has written yet; null: there is none.
@@ -36,10 +39,20 @@ class array_uses {
   }
 
  private:
-  static bool comes_before(const llvm::Instruction& write, const llvm::Instruction& read) {
+  bool comes_before(const llvm::Instruction& write, const llvm::Instruction& read) const {
     if (write.getFunction() != read.getFunction()) return false;
-    // Dominators want a function that they may change; these here change nothing.
-    return llvm::DominatorTree(const_cast<llvm::Function&>(*read.getFunction())).dominates(&write, &read);
+    auto& function = const_cast<llvm::Function&>(*read.getFunction());  // as analyses want it; they change nothing
+    const auto& dominators = analyses_.getResult<llvm::DominatorTreeAnalysis>(function);
+    if (dominators.dominates(&write, &read)) return true;
+    // A loop that runs has written when it has ended.
+    auto& evolution = analyses_.getResult<llvm::ScalarEvolutionAnalysis>(function);
+    const llvm::BasicBlock* block = write.getParent();
+    const llvm::Loop* loop = analyses_.getResult<llvm::LoopAnalysis>(function).getLoopFor(block);
+    for (; loop != nullptr && !loop->contains(&read); loop = loop->getParentLoop()) {
+      if (passes_through(*loop, *block, dominators, evolution) == 0) return false;
+      block = loop->getHeader();
+    }
+    return block != write.getParent() && dominators.dominates(block, read.getParent());
   }
 
   void follow(const llvm::Value& pointer) {
@@ -71,6 +84,7 @@ class array_uses {
       reads_.push_back(&call);
   }
 
+  llvm::FunctionAnalysisManager& analyses_;
   std::set<const llvm::Value*> seen_;
   std::vector<const llvm::Instruction*> reads_, writes_;
 };
@@ -82,8 +96,9 @@ struct data_array {
   llvm::Value* stream = nullptr;
 };
 
-data_array describe(llvm::GlobalVariable& values, const std::string& name, const source_place& place) {
-  const array_uses uses(values);
+data_array describe(llvm::GlobalVariable& values, const std::string& name, const source_place& place,
+                    llvm::FunctionAnalysisManager& analyses) {
+  const array_uses uses(values, analyses);
   const llvm::Instruction* const read = uses.first_read_of_given();
   if (uses.is_written() && read != nullptr)
     refuse(
@@ -133,32 +148,35 @@ passed_array passed_on(llvm::Value& array, llvm::Function& process) {
   return {&array, &process, nullptr};
 }
 
-/// Lets the accesses of each element be one of the stream, by way of a variable of one element.
+/// Lets the accesses of each element be one of the stream, by way of a variable of the elements of a pass.
 void access_in_order(data_array& array, llvm::Function& process, llvm::FunctionAnalysisManager& analyses) {
   llvm::Type* element = array.values->getValueType();
   std::uint64_t count = 1;
   for (; element->isArrayTy(); element = element->getArrayElementType()) count *= element->getArrayNumElements();
   const passed_array where = passed_on(*array.values, process);
-  const std::vector<element_access> accesses =
-      accesses_in_order(*where.pointer, *element, count, *where.function, analyses);
+  const ordered_accesses accesses = accesses_in_order(*where.pointer, *element, count, *where.function, analyses);
   const llvm::CallInst* const transfer =
       transfer_of(array, array.is_given ? "__epiline_stream_read" : "__epiline_stream_write", process);
-  if (accesses.empty() || transfer == nullptr) return;
+  if (accesses.all.empty() || transfer == nullptr) return;
   llvm::Value* stream = array.stream;
   if (where.operand != nullptr) {  // the process is given the stream instead
     where.operand->set(array.stream);
     stream = where.pointer;
   }
   llvm::IRBuilder<> builder(&*where.function->getEntryBlock().getFirstInsertionPt());
-  llvm::Value* const variable = builder.CreateAlloca(element, nullptr, array.name);
+  auto* const type = llvm::ArrayType::get(element, accesses.elements);
+  llvm::Value* const variable = builder.CreateAlloca(type, nullptr, array.name);
   auto* const access =
-      llvm::cast<llvm::Instruction>((array.is_given ? accesses.front() : accesses.back()).pointer->getUser());
+      llvm::cast<llvm::Instruction>((array.is_given ? accesses.all.front() : accesses.all.back()).pointer->getUser());
   builder.SetInsertPoint(array.is_given ? access : access->getNextNode());
   builder.SetCurrentDebugLocation(access->getDebugLoc());
-  llvm::CallInst* const token = builder.CreateCall(transfer->getFunctionType(), transfer->getCalledOperand(),
-                                                   {stream, variable, transfer->getArgOperand(2)});
-  token->setAttributes(transfer->getAttributes());
-  for (const element_access& one : accesses) {
+  for (unsigned i = 0; i < accesses.elements; ++i) {
+    llvm::Value* const one = builder.CreateConstInBoundsGEP2_64(type, variable, 0, i);
+    llvm::CallInst* const token = builder.CreateCall(transfer->getFunctionType(), transfer->getCalledOperand(),
+                                                     {stream, one, transfer->getArgOperand(2)});
+    token->setAttributes(transfer->getAttributes());
+  }
+  for (const element_access& one : accesses.all) {
     builder.SetInsertPoint(llvm::cast<llvm::Instruction>(one.pointer->getUser()));
     one.pointer->set(builder.CreateConstInBoundsGEP1_64(builder.getInt8Ty(), variable, one.offset));
   }
@@ -183,7 +201,7 @@ void rename(llvm::GlobalVariable& variable, const std::string& name, const sourc
 }  // namespace
 
 bool connect_data_arrays(llvm::Function& process, const top_description& top, llvm::FunctionAnalysisManager& analyses,
-                         bool has_processes) {
+                         bool has_processes, std::vector<std::string>& notes) {
   llvm::Module& module = *process.getParent();
   const auto index_of = [](const llvm::CallInst& call) {
     return static_cast<unsigned>(llvm::cast<llvm::ConstantInt>(call.getArgOperand(0))->getZExtValue());
@@ -193,7 +211,8 @@ bool connect_data_arrays(llvm::Function& process, const top_description& top, ll
   for (llvm::CallInst* call : elements) {
     const unsigned index = index_of(*call);
     auto& values = *llvm::cast<llvm::GlobalVariable>(call->getArgOperand(1)->stripPointerCasts());
-    if (arrays.count(index) == 0) arrays.emplace(index, describe(values, top.parameters.at(index), top.place));
+    if (arrays.count(index) == 0)
+      arrays.emplace(index, describe(values, top.parameters.at(index), top.place, analyses));
   }
   if (arrays.empty()) return false;
 
@@ -203,7 +222,14 @@ bool connect_data_arrays(llvm::Function& process, const top_description& top, ll
       array->second.stream = call->getArgOperand(1);
   for (llvm::CallInst* call : elements)
     call->setArgOperand(1, llvm::PoisonValue::get(call->getArgOperand(1)->getType()));
-  for (auto& [index, array] : arrays) access_in_order(array, process, analyses);
+  for (auto& [index, array] : arrays) {
+    access_in_order(array, process, analyses);
+    if (array.is_given || array.is_taken)
+      notes.push_back(fmt::format(
+          "{}:{}: note: the array '{}' is kept in memory, {} the call: a stream without memory "
+          "takes one place that accesses each element once, in order and under no condition",
+          top.place.file, top.place.line, array.name, array.is_given ? "filled before" : "and given after"));
+  }
 
   for (llvm::CallInst* call : elements) {
     call->replaceAllUsesWith(arrays.at(index_of(*call)).values);

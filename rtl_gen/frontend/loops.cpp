@@ -7,15 +7,18 @@
 #include <llvm/Analysis/ScalarEvolution.h>
 #include <llvm/Analysis/ScalarEvolutionExpressions.h>
 #include <llvm/Analysis/SimplifyQuery.h>
+#include <llvm/Analysis/TargetLibraryInfo.h>
 #include <llvm/Analysis/TargetTransformInfo.h>
 #include <llvm/IR/DebugInfoMetadata.h>
 #include <llvm/IR/Dominators.h>
 #include <llvm/IR/InstIterator.h>
 #include <llvm/IR/Instructions.h>
 #include <llvm/IR/Module.h>
+#include <llvm/Transforms/Utils/Local.h>
 #include <llvm/Transforms/Utils/LoopRotationUtils.h>
 #include <llvm/Transforms/Utils/LoopSimplify.h>
 #include <llvm/Transforms/Utils/LoopUtils.h>
+#include <llvm/Transforms/Utils/ScalarEvolutionExpander.h>
 #include <llvm/Transforms/Utils/UnrollLoop.h>
 
 #include <algorithm>
@@ -275,6 +278,42 @@ void rotate_loops(llvm::Function& function, llvm::FunctionAnalysisManager& analy
     llvm::formLCSSARecursively(loop, dominators, &loops, &evolution);
     llvm::LoopRotation(&loop, &loops, &costs, &assumptions, &dominators, &evolution, nullptr, query, false, 1000, true);
   }
+}
+
+std::uint64_t passes_through(const llvm::Loop& loop, const llvm::BasicBlock& block,
+                             const llvm::DominatorTree& dominators, llvm::ScalarEvolution& evolution) {
+  const llvm::BasicBlock* const latch = loop.getLoopLatch();
+  const llvm::BasicBlock* const exiting = loop.getExitingBlock();
+  if (latch == nullptr || !dominators.dominates(&block, latch)) return 0;
+  // A loop that is left at its end, or at its beginning before anything is done.
+  const bool at_end = exiting == latch, at_beginning = exiting == loop.getHeader() && &block != exiting;
+  const auto* again = llvm::dyn_cast<llvm::SCEVConstant>(evolution.getBackedgeTakenCount(&loop));
+  if ((!at_end && !at_beginning) || again == nullptr) return 0;
+  constexpr std::uint64_t most = std::uint64_t{1} << 40;
+  return again->getAPInt().getLimitedValue(most) + (at_end ? 1 : 0);
+}
+
+void compute_results_of_loops(llvm::Function& function, llvm::FunctionAnalysisManager& analyses) {
+  auto& loops = analyses.getResult<llvm::LoopAnalysis>(function);
+  auto& evolution = analyses.getResult<llvm::ScalarEvolutionAnalysis>(function);
+  auto& dominators = analyses.getResult<llvm::DominatorTreeAnalysis>(function);
+  auto& assumptions = analyses.getResult<llvm::AssumptionAnalysis>(function);
+  auto& costs = analyses.getResult<llvm::TargetIRAnalysis>(function);
+  auto& library = analyses.getResult<llvm::TargetLibraryAnalysis>(function);
+  llvm::SCEVExpander expander(evolution, function.getParent()->getDataLayout(), "result");
+  llvm::SmallVector<llvm::WeakTrackingVH, 16> dead;
+  const llvm::SmallVector<llvm::Loop*, 4> order = loops.getLoopsInPreorder();
+  for (auto at = order.rbegin(); at != order.rend(); ++at) {  // what an inner loop leaves before what is made of it
+    llvm::Loop& loop = **at;
+    if (!llvm::isa<llvm::SCEVConstant>(evolution.getBackedgeTakenCount(&loop))) continue;
+    llvm::simplifyLoop(&loop, &dominators, &loops, &evolution, &assumptions, nullptr, false);
+    llvm::formLCSSA(loop, dominators, &loops, &evolution);
+    llvm::rewriteLoopExitValues(&loop, &loops, &library, &evolution, &costs, expander, &dominators, llvm::AlwaysRepl,
+                                dead);
+  }
+  expander.clear();
+  llvm::RecursivelyDeleteTriviallyDeadInstructionsPermissive(dead);
+  analyses.invalidate(function, llvm::PreservedAnalyses::none());
 }
 
 namespace {

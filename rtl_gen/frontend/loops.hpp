@@ -1,10 +1,13 @@
 #pragma once
 
 #include <llvm/Analysis/LoopInfo.h>
+#include <llvm/Analysis/ScalarEvolution.h>
+#include <llvm/IR/Dominators.h>
 #include <llvm/IR/Function.h>
 #include <llvm/IR/PassManager.h>
 
 #include <algorithm>
+#include <cstdint>
 
 namespace epiline::frontend {
 
@@ -34,6 +37,14 @@ unsigned unroll_loops(llvm::Function& function, llvm::FunctionAnalysisManager& a
 /// Turns `while` loops into guarded do-while form where that duplicates no access, so that nested loops flow into each
 /// other without an idle clock.
 void rotate_loops(llvm::Function& function, llvm::FunctionAnalysisManager& analyses);
+
+/// How often a block is reached when a loop runs, once in each pass; 0: it is not known, or not once.
+[[nodiscard]] std::uint64_t passes_through(const llvm::Loop& loop, const llvm::BasicBlock& block,
+                                           const llvm::DominatorTree& dominators, llvm::ScalarEvolution& evolution);
+
+/// What a loop with a known number of passes leaves of a counter is computed from what the counter was before it: so
+/// one that goes on through nested loops is known to do so. Changes no access.
+void compute_results_of_loops(llvm::Function& function, llvm::FunctionAnalysisManager& analyses);
 
 /// Keeps the next value of every loop counter in a register of its own, so that the test "does the loop go on" need not
 /// wait for the increment: compare and add take place side by side, not one after the other in one clock.

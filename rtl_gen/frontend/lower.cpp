@@ -417,7 +417,7 @@ lowered_process lower(process_source& source) {
   cut_after_noreturn(process);
   if (!source.is_part) {
     pass_what_is_read(process, source.top);
-    if (connect_data_arrays(process, source.top, managers.function, false))
+    if (connect_data_arrays(process, source.top, managers.function, false, result.notes))
       run_passes(process, managers, early_cleanup());
   }
   port_lowering(result, source).run();

@@ -24,6 +24,7 @@ struct lowered_process {
   std::vector<source_place> memory_places;  // of memories, in order
   std::vector<source_place> table_places;
   unsigned initiation_interval = 1;  // the largest one a PIPELINE pragma allows
+  std::vector<std::string> notes;    // "FILE:LINE: note: ..."
 };
 
 /// Lowers the module in place. Throws `refused` for what the flow does not support.

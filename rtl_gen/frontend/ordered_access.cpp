@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "frontend/calls.hpp"
+#include "frontend/loops.hpp"
 
 namespace epiline::frontend {
 
@@ -61,7 +62,7 @@ class order_check {
         element_bytes_(layout_.getTypeAllocSize(&element)),
         count_(count) {}
 
-  std::vector<element_access> in_order(std::vector<llvm::Use*> pointers) {
+  ordered_accesses in_order(std::vector<llvm::Use*> pointers) {
     const auto is_elsewhere = [&](const llvm::Use* pointer) {
       return instruction_of(*pointer).getParent() != instruction_of(*pointers.front()).getParent() ||
              is_write(*pointer) != is_write(*pointers.front());
@@ -70,27 +71,47 @@ class order_check {
     std::sort(pointers.begin(), pointers.end(), [](const llvm::Use* a, const llvm::Use* b) {
       return instruction_of(*a).comesBefore(&instruction_of(*b));
     });
-    std::vector<element_access> accesses;
+    pass_bytes_ = bytes_of_pass(*pointers.front());
+    if (pass_bytes_ % element_bytes_ != 0 || pass_bytes_ == 0 || pass_bytes_ > most_elements * element_bytes_)
+      return {};
+    ordered_accesses accesses{{}, pass_bytes_ / element_bytes_};
     for (llvm::Use* pointer : pointers) {
-      const std::optional<std::uint64_t> offset = offset_in_element(*pointer);
-      if (!offset || *offset + bytes_of(*pointer) > element_bytes_) return {};
-      accesses.push_back({pointer, *offset});
+      const std::optional<std::uint64_t> offset = offset_in_pass(*pointer);
+      if (!offset || *offset % element_bytes_ + bytes_of(*pointer) > element_bytes_) return {};
+      accesses.all.push_back({pointer, *offset});
     }
     if (is_write(*pointers.front()) && !write_all(accesses)) return {};
     return accesses;
   }
 
  private:
-  /// The offset of an access in the element that it reaches, if it reaches each element once and in order.
-  std::optional<std::uint64_t> offset_in_element(const llvm::Use& pointer) {
-    const llvm::SCEV* place = evolution_.getMinusSCEV(evolution_.getSCEV(pointer.get()), evolution_.getSCEV(&array_));
+  static constexpr std::uint64_t most_elements = 64;  // that are variables at once
+
+  /// From the beginning of the array.
+  const llvm::SCEV* place_of_access(const llvm::Use& pointer) {
+    return evolution_.getMinusSCEV(evolution_.getSCEV(pointer.get()), evolution_.getSCEV(&array_));
+  }
+
+  /// How far an access gets in a pass through its block; 0: it is not known.
+  std::uint64_t bytes_of_pass(const llvm::Use& pointer) {
+    const llvm::Loop* const loop = loops_.getLoopFor(instruction_of(pointer).getParent());
+    if (loop == nullptr || loop->hasNoExitBlocks()) return element_bytes_ * count_;
+    const auto* steps = llvm::dyn_cast<llvm::SCEVAddRecExpr>(place_of_access(pointer));
+    if (steps == nullptr || steps->getLoop() != loop || !steps->isAffine()) return 0;
+    const auto* step = llvm::dyn_cast<llvm::SCEVConstant>(steps->getStepRecurrence(evolution_));
+    return step == nullptr ? 0 : step->getAPInt().getLimitedValue();
+  }
+
+  /// The offset of an access in what its pass goes through, if the passes go through the array once and in order.
+  std::optional<std::uint64_t> offset_in_pass(const llvm::Use& pointer) {
+    const llvm::SCEV* place = place_of_access(pointer);
     // From the innermost loop outwards: a loop's step is what the loops inside of it go through.
-    std::uint64_t passed = element_bytes_;
+    std::uint64_t passed = pass_bytes_;
     const llvm::BasicBlock* block = instruction_of(pointer).getParent();
     const llvm::Loop* loop = loops_.getLoopFor(block);
     for (; loop != nullptr && !loop->hasNoExitBlocks(); loop = loop->getParentLoop()) {
-      const std::uint64_t passes = passes_of(*loop, *block);
-      if (passes == 0) return {};
+      const std::uint64_t passes = passes_through(*loop, *block, dominators_, evolution_);
+      if (passes == 0 || passes > count_) return {};
       if (passes > 1) {
         const auto* steps = llvm::dyn_cast<llvm::SCEVAddRecExpr>(place);
         if (steps == nullptr || steps->getLoop() != loop || !steps->isAffine()) return {};
@@ -105,20 +126,8 @@ class order_check {
     const llvm::BasicBlock* const end = loop != nullptr ? loop->getLoopLatch() : only_return();
     if (end == nullptr || !dominators_.dominates(block, end) || passed != element_bytes_ * count_) return {};
     const auto* offset = llvm::dyn_cast<llvm::SCEVConstant>(place);
-    if (offset == nullptr || offset->getAPInt().uge(element_bytes_)) return {};
+    if (offset == nullptr || offset->getAPInt().uge(pass_bytes_)) return {};
     return offset->getAPInt().getZExtValue();
-  }
-
-  /// How often a block is reached in a loop, once in each pass; 0: it is not known, or not once.
-  std::uint64_t passes_of(const llvm::Loop& loop, const llvm::BasicBlock& block) {
-    const llvm::BasicBlock* const latch = loop.getLoopLatch();
-    const llvm::BasicBlock* const exiting = loop.getExitingBlock();
-    if (latch == nullptr || !dominators_.dominates(&block, latch)) return 0;
-    // A loop that is left at its end, or at its beginning before anything is done.
-    const bool at_end = exiting == latch, at_beginning = exiting == loop.getHeader() && &block != exiting;
-    const auto* again = llvm::dyn_cast<llvm::SCEVConstant>(evolution_.getBackedgeTakenCount(&loop));
-    if ((!at_end && !at_beginning) || again == nullptr) return 0;
-    return again->getAPInt().getLimitedValue(count_) + (at_end ? 1 : 0);
   }
 
   [[nodiscard]] const llvm::BasicBlock* only_return() const {
@@ -139,12 +148,14 @@ class order_check {
             ->getValueType());
   }
 
-  /// Whether the writes reach all numbers of the element: the others would be as they were.
-  bool write_all(const std::vector<element_access>& accesses) const {
+  /// Whether the writes reach all numbers of the elements: the others would be as they were.
+  bool write_all(const ordered_accesses& accesses) const {
     std::map<std::uint64_t, std::uint64_t> written;  // bytes, by offset
-    for (const element_access& access : accesses)
+    for (const element_access& access : accesses.all)
       written[access.offset] = std::max(written[access.offset], bytes_of(*access.pointer));
-    return reaches_numbers(element_, 0, written);
+    for (std::uint64_t i = 0; i < accesses.elements; ++i)
+      if (!reaches_numbers(element_, i * element_bytes_, written)) return false;
+    return true;
   }
 
   bool reaches_numbers(llvm::Type& type, std::uint64_t offset,
@@ -174,14 +185,16 @@ class order_check {
   llvm::Value& array_;
   llvm::Type& element_;
   const std::uint64_t element_bytes_, count_;
+  std::uint64_t pass_bytes_ = 0;
 };
 
 }  // namespace
 
-std::vector<element_access> accesses_in_order(llvm::Value& array, llvm::Type& element, std::uint64_t count,
-                                              llvm::Function& function, llvm::FunctionAnalysisManager& analyses) {
+ordered_accesses accesses_in_order(llvm::Value& array, llvm::Type& element, std::uint64_t count,
+                                   llvm::Function& function, llvm::FunctionAnalysisManager& analyses) {
   std::vector<llvm::Use*> pointers;
   if (!find_accesses(array, pointers)) return {};
+  compute_results_of_loops(function, analyses);
   return order_check(array, element, count, function, analyses).in_order(std::move(pointers));
 }
 

@@ -137,7 +137,7 @@ class splitter {
     // A table that more than one process has is no variable that they share.
     run_first_calls(module_);
     pass_what_is_read(process_, result_.top);
-    if (connect_data_arrays(process_, result_.top, managers_.function, true)) clean_up(process_);
+    if (connect_data_arrays(process_, result_.top, managers_.function, true, source_.notes)) clean_up(process_);
     for (llvm::Function* function : outline_accesses(process_, functions_)) functions_.push_back(function);
     managers_.function.clear();
     find_calls();

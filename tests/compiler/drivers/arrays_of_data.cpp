@@ -11,19 +11,24 @@ EPILINE_DRIVER(arrays_of_data) {
   auto& bright_port = s.output<unsigned char>("bright");
   auto& points_port = s.output<point_t>("points");
   auto& sums_port = s.output<int>("sums");
+  auto& pairs_port = s.input<short>("pairs");
+  auto& differences_port = s.output<short>("differences");
   point_t points[48] = {};
   point_t wanted[48] = {};
   for (const int first : {20, 0, 63, 1}) {
     pixel_t image[rows][columns];
     int table[64], sums[columns][4];
     unsigned char bright[rows * columns];
+    short pairs[60], differences[30];
     for (auto& row : image)
       for (pixel_t& pixel : row) image_port.push(pixel = s.any<pixel_t>());
     for (int& value : table) table_port.push(value = int(s.number(-1000000, 1000000)));
+    for (short& value : pairs) pairs_port.push(value = s.any<short>());
+    while (!pairs_port.stream.empty()) pairs_port.stream.read();
     while (!image_port.stream.empty()) image_port.stream.read();  // they are in the arrays
     while (!table_port.stream.empty()) table_port.stream.read();
     s.call({{"first", ap_uint<6>(first)}});
-    arrays_of_data(image, table, bright, points, sums, first);
+    arrays_of_data(image, table, bright, points, sums, pairs, differences, first);
 
     for (int i = 0; i < rows * columns; ++i) {
       const unsigned pixel = image[i / columns][i % columns].to_uint();
@@ -42,6 +47,11 @@ EPILINE_DRIVER(arrays_of_data) {
       s.expect(sums[i / 4][i % 4] == sum, "sums");
       sums_port.stream.write(sum);
     }
+    for (int i = 0; i < 30; ++i) {
+      s.expect(differences[i] == static_cast<short>(pairs[2 * i + 1] - pairs[2 * i]), "differences");
+      differences_port.stream.write(differences[i]);
+    }
+    differences_port.drain();
     bright_port.drain();
     points_port.drain();
     sums_port.drain();

@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+"""Arrays of data that are accessed in order are streams; those that might not be are kept in memory, and a note says so.
+
+test_array_order.py COMPILER
+
+That either form computes what the source does is tested by regressions/arrays_of_*.cpp.
+"""
+
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+COMPILER = sys.argv[1]
+
+SOURCE = """\
+struct pair {{ int a; short b; }};
+void top(const int a[64], const pair p[40], int b[64], pair q[40], int n, int& last) {{
+  int s = 0, k = 0;
+  {body}
+  last = s;
+}}
+"""
+
+# What a body does with the arrays, and which of them it needs memory for.
+ALL = "for (int i = 0; i < 40; ++i) q[i] = p[i];"
+CASES = {
+    "in order": ("for (int i = 0; i < 64; ++i) b[i] = a[i];" + ALL, ""),
+    "in two dimensions": ("for (int y = 0; y < 8; ++y) for (int x = 0; x < 8; ++x) b[8 * y + x] = a[8 * y + x];" + ALL, ""),
+    "by a count through two loops": ("for (int y = 0; y < 8; ++y) for (int x = 0; x < 8; ++x) { b[k] = a[k]; ++k; }" + ALL, ""),
+    "some at a time": ("for (int i = 0; i < 64; i += 4) for (int j = 0; j < 4; ++j) b[i + j] = a[i + 3 - j];" + ALL, "a"),
+    "pairs": ("for (int i = 0; i < 32; ++i) { b[2 * i + 1] = a[2 * i]; b[2 * i] = a[2 * i + 1]; }" + ALL, ""),
+    "one twice in a pass": ("for (int i = 0; i < 64; ++i) b[i] = a[i] + a[i];" + ALL, ""),
+    "backwards": ("for (int i = 63; i >= 0; --i) b[i] = a[i];" + ALL, "ab"),
+    "a pass too few": ("for (int i = 0; i < 63; ++i) b[i] = a[i];" + ALL, "ab"),
+    "not from the beginning": ("for (int i = 1; i < 64; ++i) b[i] = a[i];" + ALL, "ab"),
+    "every other one": ("for (int i = 0; i < 64; i += 2) b[i] = a[i];" + ALL, "b"),  # the others are read and left
+    "with the one before": ("for (int i = 1; i < 64; ++i) s += a[i] - a[i - 1];\n for (int i = 0; i < 64; ++i) b[i] = s;" + ALL, "a"),
+    "a number of passes not known": ("for (int i = 0; i < n; ++i) b[i] = a[i];" + ALL, "ab"),
+    "left early": ("for (int i = 0; i < 64; ++i) { s += a[i]; if (s == n) break; b[i] = s; }" + ALL, "ab"),
+    "under a condition": ("for (int i = 0; i < 64; ++i) { if (s != n) s += a[i]; b[i] = s; }" + ALL, "a"),
+    "written under a condition": ("for (int i = 0; i < 64; ++i) { s += a[i]; if (s != n) b[i] = s; }" + ALL, "b"),
+    "in a call in two": ("if (n & 1) for (int i = 0; i < 64; ++i) b[i] = a[i];" + ALL, "ab"),
+    "again": ("for (int t = 0; t < 2; ++t) for (int i = 0; i < 64; ++i) b[i] = a[i] + t;" + ALL, "ab"),
+    "in two places": ("for (int i = 0; i < 64; ++i) b[i] = a[i];" + ALL + " s = a[n & 63];", "a"),
+    "read back": ("for (int i = 0; i < 64; ++i) { b[i] = a[i]; s += b[i]; }" + ALL, "b"),
+    "read back elsewhere": ("for (int i = 0; i < 64; ++i) b[i] = a[i];" + ALL + " s = b[n & 63];", "b"),
+    "a histogram": ("for (int i = 0; i < 64; ++i) b[i] = 0; for (int i = 0; i < 64; ++i) ++b[a[i] & 63];" + ALL, "b"),
+    "member by member": (
+        "for (int i = 0; i < 64; ++i) b[i] = a[i];\nfor (int i = 0; i < 40; ++i) { q[i].b = p[i].b; q[i].a = n; }", ""),
+    "a member left out": (
+        "for (int i = 0; i < 64; ++i) b[i] = a[i];\nfor (int i = 0; i < 40; ++i) q[i].b = p[i].b;", "q"),
+}
+
+
+class array_order(unittest.TestCase):
+    def test_which_arrays_are_streams(self):
+        with tempfile.TemporaryDirectory() as name:
+            root = pathlib.Path(name)
+            for case, (body, wanted) in CASES.items():
+                with self.subTest(case):
+                    (root / "top.cpp").write_text(SOURCE.format(body=body))
+                    run = subprocess.run(
+                        [COMPILER, "top.cpp", "--top", "top", "--clock", "20", "-o", "out"],
+                        cwd=root, capture_output=True, text=True, check=False)
+                    self.assertEqual(run.returncode, 0, run.stderr)
+                    kept = re.findall(r"^top\.cpp:2: note: the array '(\w)' is kept in memory", run.stderr, re.M)
+                    self.assertEqual("".join(sorted(kept)), wanted, run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
