@@ -92,12 +92,12 @@ class array_uses {
 struct data_array {
   std::string name;
   llvm::GlobalVariable* values;
+  bool is_looked_at;        // what is given of it
   bool is_given, is_taken;  // in whole, before or after the call
   llvm::Value* stream = nullptr;
 };
 
-data_array describe(llvm::GlobalVariable& values, const std::string& name, const source_place& place,
-                    llvm::FunctionAnalysisManager& analyses) {
+data_array describe(llvm::GlobalVariable& values, const std::string& name, llvm::FunctionAnalysisManager& analyses) {
   const array_uses uses(values, analyses);
   const llvm::Instruction* const read = uses.first_read_of_given();
   if (uses.is_written() && read != nullptr)
@@ -106,9 +106,7 @@ data_array describe(llvm::GlobalVariable& values, const std::string& name, const
         fmt::format("the array '{}', a parameter of the top, is read here before it is written, and written as well: a "
                     "port has one direction: give results in an array of their own, or work on a copy",
                     name));
-  if (!uses.is_written() && read == nullptr)
-    refuse(place, fmt::format("the array '{}' is neither read nor written: remove the parameter", name));
-  return {name, &values, !uses.is_written(), uses.is_written()};
+  return {name, &values, read != nullptr, !uses.is_written(), uses.is_written()};
 }
 
 std::vector<llvm::Constant*> variables_of(const std::map<unsigned, data_array>& arrays) {
@@ -211,8 +209,7 @@ bool connect_data_arrays(llvm::Function& process, const top_description& top, ll
   for (llvm::CallInst* call : elements) {
     const unsigned index = index_of(*call);
     auto& values = *llvm::cast<llvm::GlobalVariable>(call->getArgOperand(1)->stripPointerCasts());
-    if (arrays.count(index) == 0)
-      arrays.emplace(index, describe(values, top.parameters.at(index), top.place, analyses));
+    if (arrays.count(index) == 0) arrays.emplace(index, describe(values, top.parameters.at(index), analyses));
   }
   if (arrays.empty()) return false;
 
@@ -224,7 +221,10 @@ bool connect_data_arrays(llvm::Function& process, const top_description& top, ll
     call->setArgOperand(1, llvm::PoisonValue::get(call->getArgOperand(1)->getType()));
   for (auto& [index, array] : arrays) {
     access_in_order(array, process, analyses);
-    if (array.is_given || array.is_taken)
+    if (array.is_given && !array.is_looked_at)
+      notes.push_back(fmt::format("{}:{}: note: the array '{}' is not used: its elements are taken before the call",
+                                  top.place.file, top.place.line, array.name));
+    else if (array.is_given || array.is_taken)
       notes.push_back(fmt::format(
           "{}:{}: note: the array '{}' is kept in memory, {} the call: a stream without memory "
           "takes one place that accesses each element once, in order and under no condition",

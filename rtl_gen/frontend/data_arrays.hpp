@@ -16,7 +16,7 @@ namespace epiline::frontend {
 /// no array any more but accesses of the stream. `process` is the call of the top, in which everything is inlined but
 /// functions that are processes; where there are such the other arrays are variables of the top, which they give each
 /// other. Returns whether there are any arrays; adds a note for each that takes memory.
-/// Refuses an array that is both read and written, or neither.
+/// Refuses an array that is both given and changed.
 bool connect_data_arrays(llvm::Function& process, const top_description& top, llvm::FunctionAnalysisManager& analyses,
                          bool has_processes, std::vector<std::string>& notes);
 

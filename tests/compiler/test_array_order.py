@@ -69,6 +69,16 @@ class array_order(unittest.TestCase):
                     kept = re.findall(r"^top\.cpp:2: note: the array '(\w)' is kept in memory", run.stderr, re.M)
                     self.assertEqual("".join(sorted(kept)), wanted, run.stderr)
 
+    def test_an_array_that_nobody_looks_at_is_taken_all_the_same(self):
+        with tempfile.TemporaryDirectory() as name:
+            root = pathlib.Path(name)
+            (root / "top.cpp").write_text("void top(const int a[64], int b[64]) { for (int i = 0; i < 64; ++i) b[i] = i; }\n")
+            run = subprocess.run([COMPILER, "top.cpp", "--top", "top", "-o", "out"], cwd=root, capture_output=True,
+                                 text=True, check=False)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertIn("top.cpp:1: note: the array 'a' is not used: its elements are taken before the call", run.stderr)
+            self.assertIn("s_axis_a_tready", (root / "out" / "top.v").read_text())
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

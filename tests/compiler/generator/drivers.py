@@ -46,8 +46,17 @@ def driver(name, ports, scalars, results, calls, most, packets=None, asked=()):
     if asked:  # an output that is full delays a call by one
         calls = 4 * TOKENS
     lines.append(f"  for (int call = 0; call < {calls}; ++call) {{")
+    for port in inputs + outputs:
+        if "size" in port:
+            # What a call does not write stays: the arrays of outputs are the same in every call.
+            lines.append(f"    {'static ' if port in outputs else ''}{port['type']} {port['name']}_values[{port['size']}];")
     for port in inputs:
-        if port in asked:
+        if "size" in port:
+            lines.append(f"    for (auto& value : {port['name']}_values) {{")
+            lines.append(f"      {port['name']}.push(value = s.any<{port['type']}>());")
+            lines.append(f"      {port['name']}.stream.read();")
+            lines.append("    }")
+        elif port in asked:
             more = f"{port['name']}_left"
             lines.append(f"    for (int i = call < {TOKENS} ? s.chance(60) : {more}; i > 0 && {more} > 0; --i, --{more})")
             lines.append(f"      {port['name']}.fill_up({port['name']}.stream.size() + 1);")
@@ -71,9 +80,12 @@ def driver(name, ports, scalars, results, calls, most, packets=None, asked=()):
         lines.append(f"    s.call({{{', '.join(arguments)}}});")
     for result, width, signed in results:
         lines.append(f"    {type_name(width, signed)} {result} = 0;")
-    call = [f"{p['name']}.stream" for p in inputs + outputs]
+    call = [f"{p['name']}_values" if "size" in p else f"{p['name']}.stream" for p in inputs + outputs]
     call += [n for n, _, _ in scalars] + [n for n, _, _ in results]
     lines.append(f"    {name}({', '.join(call)});")
+    for port in outputs:
+        if "size" in port:
+            lines.append(f"    for (const auto& value : {port['name']}_values) {port['name']}.stream.write(value);")
     for result, _, _ in results:
         lines.append(f'    s.result("{result}", {result});')
     lines.append("  }")

@@ -30,6 +30,17 @@ class Ports(Memories):
             self.hit("payload", *port["data"])
         return port
 
+    def make_array(self, port, passes):
+        """Makes an array of a port, for a loop of that many passes with the counter `i`."""
+        r = self.r
+        order = r.choice(["in order", "in order", "backwards", "pairs", "any"])
+        self.hit("array " + order)
+        port["passes"] = passes
+        port["size"] = {"pairs": 2 * passes, "any": 64}.get(order, passes)
+        at = r.choice(["tick.to_uint() & 63", f"(i * {r.choice([3, 5, 7])}) & 63"])
+        port["indices"] = {"in order": ["i"], "backwards": [f"{passes - 1} - i"], "pairs": ["2 * i", "2 * i + 1"],
+                           "any": [at]}[order]
+
     def loop_pragma(self):
         if self.r.random() < 0.8:
             self.hit("pragma PIPELINE")
@@ -41,6 +52,11 @@ class Ports(Memories):
         r = self.r
         style = r.random()
         asked, leave = self.leave_unless_read
+        if "size" in port:
+            tokens = [name] + [self.fresh("t") for _ in port["indices"][1:]]
+            for token, index in zip(tokens, port["indices"]):
+                self.emit(f"const {port['type']} {token} = {port['name']}[{index}];")
+            return [m for token in tokens for m in self.members(port, token)]
         if port is asked:
             self.emit(f"{port['type']} {name};")
             self.emit(f"if (!{port['name']}.read_nb({name})) {leave};")
@@ -208,13 +224,23 @@ class Ports(Memories):
         if condition:
             self.emit(f"if ({condition}) {{")
             self.indent += 1
+        for index in port.get("indices", [None]):
+            self.write_token(port, index)
+        if condition:
+            self.indent -= 1
+            self.emit("}")
+
+    def write_token(self, port, index):
+        """Writes a token to a stream, or an element of an array."""
+        r = self.r
         name = port["name"]
+        put = f"{name}.write({{}});" if index is None else f"{name}[{index}] = {{}};"
         if port["members"]:
             token = self.fresh("t")
             self.emit(f"{port['type']} {token};")
             for member, _, _ in port["members"]:
                 self.emit(f"{token}.{member} = {self.observed().text};")
-            self.emit(f"{name}.write({token});")
+            self.emit(put.format(token))
         elif port["axis"]:
             token = self.fresh("t")
             self.emit(f"{port['type']} {token};")
@@ -222,18 +248,15 @@ class Ports(Memories):
             for member in ("keep", "strb", "user", "id", "dest"):
                 self.emit(f"{token}.{member} = {r.choice(['0', '-1', '1', self.expression(1).text])};")
             self.emit(f"{token}.last = {self.condition(1).text};")
-            self.emit(f"{name}.write({token});")
+            self.emit(put.format(token))
         else:
             value = self.observed()
             width, signed = port["data"]
             if not port["type"].startswith("ap_"):
                 value = Value(f"static_cast<{port['type']}>({value.as_ap().text})", width, signed)
             text = value.text if value.c_int or not port["type"].startswith("ap_") else value.text
-            if r.random() < 0.5:
-                self.emit(f"{name}.write({text});")
+            if index is not None or r.random() < 0.5:
+                self.emit(put.format(text))
             else:
                 self.emit(f"{name} << {port['type']}({text});" if port["type"].startswith("ap_") else
                           f"{name} << {text};")
-        if condition:
-            self.indent -= 1
-            self.emit("}")

@@ -95,6 +95,13 @@ class Body(Questions):
             self.make_ram(shape)
 
 
+def parameter_of(port):
+    """A port as a parameter of the top."""
+    if "size" in port:
+        return f"{'const ' if port['input'] else ''}{port['type']} {port['name']}[{port['size']}]"
+    return f"hls::stream<{port['type']}>& {port['name']}"
+
+
 class Program(Body):
     """A top with one loop nest, or some in sequence."""
 
@@ -106,8 +113,8 @@ class Program(Body):
 
     def generate(self):
         r = self.r
-        shape = r.choices(["call", "counted", "nested", "until_last", "phases", "packets", "while"],
-                          [22, 20, 15, 13, 10, 10, 10])[0]
+        shape = r.choices(["call", "counted", "nested", "until_last", "phases", "packets", "while", "arrays"],
+                          [22, 20, 15, 13, 10, 10, 10, 10])[0]
         self.hit("shape " + shape)
         head = self.make_tables()
         head += self.make_helpers()
@@ -115,6 +122,10 @@ class Program(Body):
         inputs = [self.make_port(f"in{i}", True, axis=shape == "until_last" and i == 0)
                   for i in range(1 if self.small else r.choice([1, 1, 1, 2, 2, 3]))]
         outputs = [self.make_port(f"out{i}", False, axis=r.random() < 0.2) for i in range(1 if self.small else r.choice([1, 1, 1, 2, 3]))]
+        if shape == "arrays":
+            passes = r.randint(20, 40)
+            for port in inputs + outputs:
+                self.make_array(port, passes)
         # Natively a call that finds nothing is made again: one with scalars would have taken them.
         asked = [p for p in inputs if p is inputs[0] or r.random() < 0.5] if shape == "call" and r.random() < 0.4 else []
         scalars = []
@@ -142,7 +153,7 @@ class Program(Body):
         if results:
             self.emit("total = result;")
 
-        parameters = [f"hls::stream<{p['type']}>& {p['name']}" for p in inputs + outputs]
+        parameters = [parameter_of(p) for p in inputs + outputs]
         parameters += [f"{t[0]} {n}" for n, t, _ in scalars]
         parameters += [f"{type_name(w, s)}& {n}" for n, w, s in results]
         text = [f"// Written by random_program.py, seed {self.seed}.",
@@ -151,13 +162,15 @@ class Program(Body):
         text.append("")
         text.append(f"void {self.name}({', '.join(parameters)}) {{")
         for port in inputs + outputs:
-            if r.random() < 0.3:
+            if "size" in port or r.random() < 0.3:  # a short array would be one value
                 self.hit("pragma INTERFACE")
                 text.append(f"#pragma HLS INTERFACE axis port={port['name']}")
         text += self.lines
         text.append("}")
-        calls = {"call": 120, "counted": 16, "nested": 8, "until_last": 12, "phases": 5, "packets": 16, "while": 16}
-        most = {"call": 2, "counted": 16, "nested": 128, "until_last": 16, "phases": 64, "packets": 20, "while": 16}
+        calls = {"call": 120, "counted": 16, "nested": 8, "until_last": 12, "phases": 5, "packets": 16, "while": 16,
+                 "arrays": 5}
+        most = {"call": 2, "counted": 16, "nested": 128, "until_last": 16, "phases": 64, "packets": 20, "while": 16,
+                "arrays": 0}
         return "\n".join(text) + "\n", driver(self.name, inputs + outputs, scalars, results, calls[shape], most[shape],
                                               inputs[0] if shape == "until_last" else None, asked)
 
@@ -174,6 +187,13 @@ class Program(Body):
         self.emit(f"for ({counter_type} i = 0; i < {limit[counter_type]}; ++i) {{")
         self.loop_pragma()
         self.iteration(inputs, outputs, inputs[1:], results, counter="i", counter_type=counter_type)
+        self.emit("}")
+
+    def loops_arrays(self, inputs, outputs, results):
+        """As many passes as the arrays are made for."""
+        self.emit(f"for (int i = 0; i < {inputs[0]['passes']}; ++i) {{")
+        self.loop_pragma()
+        self.iteration(inputs, outputs, inputs[1:], results, counter="i", counter_type="int")
         self.emit("}")
 
     def loops_while(self, inputs, outputs, results):
