@@ -171,7 +171,8 @@ class programs(unittest.TestCase):
                   "call of a function template", "call of a functor", "call of a lambda", "ways that meet", "processes 5",
                   "pragma RESET off", "pragma UNROLL", "pragma ARRAY_PARTITION", "pragma STREAM depth", "pragma INTERFACE",
                   "second write in an iteration", "result by reference", "payload struct", "payload AXI", "tasks",
-                  "endless loop", "question empty", "question full", "read_nb"}
+                  "endless loop", "question empty", "question full", "read_nb", "array in order", "array backwards",
+                  "array pairs", "array any"}
         self.assertEqual(wanted - met, set())
         self.assertEqual({"1", "2", "31-33", "63-65", "129-200"} - widths, set())
 
