@@ -137,11 +137,20 @@ struct passed_array {
   llvm::Use* operand;  // of the process' call, if any
 };
 
-passed_array passed_on(llvm::Value& array, llvm::Function& process) {
+/// Whether a call takes place once in each call of the top: in a loop it would go through the array again.
+bool takes_place_once(const llvm::CallInst& call, llvm::Function& process, llvm::FunctionAnalysisManager& analyses) {
+  const llvm::Loop* const loop = analyses.getResult<llvm::LoopAnalysis>(process).getLoopFor(call.getParent());
+  return call.getFunction() == &process && loop != nullptr && loop->hasNoExitBlocks() &&
+         loop->getLoopLatch() != nullptr &&
+         analyses.getResult<llvm::DominatorTreeAnalysis>(process).dominates(call.getParent(), loop->getLoopLatch());
+}
+
+passed_array passed_on(llvm::Value& array, llvm::Function& process, llvm::FunctionAnalysisManager& analyses) {
   if (array.hasOneUse())
     if (auto* const call = llvm::dyn_cast<llvm::CallInst>(array.user_back()))
-      if (llvm::Function* const callee = called_by(*call);
-          callee != nullptr && !callee->isDeclaration() && is_called_once(*callee, process))
+      if (llvm::Function* const callee = called_by(*call); callee != nullptr && !callee->isDeclaration() &&
+                                                           is_called_once(*callee, process) &&
+                                                           takes_place_once(*call, process, analyses))
         return {callee->getArg(call->getArgOperandNo(&*array.use_begin())), callee, &*array.use_begin()};
   return {&array, &process, nullptr};
 }
@@ -151,7 +160,7 @@ void access_in_order(data_array& array, llvm::Function& process, llvm::FunctionA
   llvm::Type* element = array.values->getValueType();
   std::uint64_t count = 1;
   for (; element->isArrayTy(); element = element->getArrayElementType()) count *= element->getArrayNumElements();
-  const passed_array where = passed_on(*array.values, process);
+  const passed_array where = passed_on(*array.values, process, analyses);
   const ordered_accesses accesses = accesses_in_order(*where.pointer, *element, count, *where.function, analyses);
   const llvm::CallInst* const transfer =
       transfer_of(array, array.is_given ? "__epiline_stream_read" : "__epiline_stream_write", process);

@@ -69,6 +69,28 @@ class array_order(unittest.TestCase):
                     kept = re.findall(r"^top\.cpp:2: note: the array '(\w)' is kept in memory", run.stderr, re.M)
                     self.assertEqual("".join(sorted(kept)), wanted, run.stderr)
 
+    def test_a_process_that_is_called_again_goes_through_the_array_again(self):
+        source = """\
+#include <hls_stream.h>
+static void load(const int a[64], hls::stream<int>& s) { for (int i = 0; i < 64; ++i) s.write(a[i]); }
+static void store(hls::stream<int>& s, hls::stream<int>& out) { for (int i = 0; i < 64; ++i) out.write(s.read()); }
+void top(const int a[64], hls::stream<int>& out) {
+#pragma HLS DATAFLOW
+  hls::stream<int> s;
+  %s
+}
+"""
+        calls = "load(a, s); store(s, out);"
+        for body, is_kept in ((calls, False), ("for (int t = 0; t < 2; ++t) { " + calls + " }", True)):
+            with self.subTest(body), tempfile.TemporaryDirectory() as name:
+                root = pathlib.Path(name)
+                (root / "top.cpp").write_text(source % body)
+                run = subprocess.run(
+                    [COMPILER, "top.cpp", "--top", "top", "-o", "out", "--check", "--levels", "native-gcc", "--levels", "graph"],
+                    cwd=root, capture_output=True, text=True, check=False)
+                self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+                self.assertEqual("'a' is kept in memory" in run.stderr, is_kept, run.stderr)
+
     def test_an_array_that_nobody_looks_at_is_taken_all_the_same(self):
         with tempfile.TemporaryDirectory() as name:
             root = pathlib.Path(name)
