@@ -30,6 +30,14 @@ std::vector<llvm::CallInst*> calls_of(llvm::Module& module, llvm::StringRef name
   return calls;
 }
 
+unsigned number_in(const llvm::CallInst& call, unsigned operand) {
+  return static_cast<unsigned>(llvm::cast<llvm::ConstantInt>(call.getArgOperand(operand))->getZExtValue());
+}
+
+llvm::Type* payload_type(const llvm::CallInst& call, unsigned operand) {
+  return llvm::cast<llvm::GlobalVariable>(call.getArgOperand(operand)->stripPointerCasts())->getValueType();
+}
+
 std::set<const llvm::Function*> reached_from(const llvm::Function& root) {
   std::set<const llvm::Function*> reached{&root};
   std::vector<const llvm::Function*> pending{&root};

@@ -21,6 +21,12 @@ namespace epiline::frontend {
 [[nodiscard]] std::vector<llvm::CallInst*> calls_of(llvm::Module& module, llvm::StringRef name,
                                                     const llvm::Function* in = nullptr);
 
+/// An operand that the source gives as a number.
+[[nodiscard]] unsigned number_in(const llvm::CallInst& call, unsigned operand);
+
+/// The type that a token's or a parameter's tag, an operand, stands for.
+[[nodiscard]] llvm::Type* payload_type(const llvm::CallInst& call, unsigned operand);
+
 /// Everything that runs when `root` does, itself included.
 [[nodiscard]] std::set<const llvm::Function*> reached_from(const llvm::Function& root);
 

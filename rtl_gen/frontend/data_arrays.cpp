@@ -210,9 +210,7 @@ void rename(llvm::GlobalVariable& variable, const std::string& name, const sourc
 bool connect_data_arrays(llvm::Function& process, const top_description& top, llvm::FunctionAnalysisManager& analyses,
                          bool has_processes, std::vector<std::string>& notes) {
   llvm::Module& module = *process.getParent();
-  const auto index_of = [](const llvm::CallInst& call) {
-    return static_cast<unsigned>(llvm::cast<llvm::ConstantInt>(call.getArgOperand(0))->getZExtValue());
-  };
+  const auto index_of = [](const llvm::CallInst& call) { return number_in(call, 0); };
   std::map<unsigned, data_array> arrays;
   const std::vector<llvm::CallInst*> elements = calls_of(module, "__epiline_elements", &process);
   for (llvm::CallInst* call : elements) {

@@ -18,6 +18,7 @@
 #include <set>
 
 #include "frontend/aggregates.hpp"
+#include "frontend/calls.hpp"
 #include "frontend/checks.hpp"
 #include "frontend/copies.hpp"
 #include "frontend/data_arrays.hpp"
@@ -75,9 +76,7 @@ class port_lowering {
 
   static llvm::StringRef name_of(const llvm::CallInst& call) { return call.getCalledFunction()->getName(); }
 
-  static unsigned index_of(const llvm::CallInst& call) {
-    return static_cast<unsigned>(llvm::cast<llvm::ConstantInt>(call.getArgOperand(0))->getZExtValue());
-  }
+  static unsigned index_of(const llvm::CallInst& call) { return number_in(call, 0); }
 
   std::string parameter_name(unsigned index) const {
     const auto found = top_.parameters.find(index);
@@ -145,10 +144,6 @@ class port_lowering {
     if (std::none_of(result_.ports.begin(), result_.ports.end(),
                      [](const dataflow::port& port) { return port.kind != dataflow::port_kind::call; }))
       refuse(source_.place, "DATAFLOW: this process neither reads nor writes a stream: remove the call");
-  }
-
-  static llvm::Type* payload_type(const llvm::CallInst& call, unsigned operand) {
-    return llvm::cast<llvm::GlobalVariable>(call.getArgOperand(operand)->stripPointerCasts())->getValueType();
   }
 
   [[nodiscard]] std::vector<leaf> payload_leaves(llvm::Type* type, const source_place& place) const {

@@ -92,14 +92,19 @@ class order_check {
     return evolution_.getMinusSCEV(evolution_.getSCEV(pointer.get()), evolution_.getSCEV(&array_));
   }
 
+  /// How far a place moves from one pass of the loop to the next; 0: it is not known to.
+  std::uint64_t step_in(const llvm::Loop& loop, const llvm::SCEV* place) {
+    const auto* steps = llvm::dyn_cast<llvm::SCEVAddRecExpr>(place);
+    if (steps == nullptr || steps->getLoop() != &loop || !steps->isAffine()) return 0;
+    const auto* step = llvm::dyn_cast<llvm::SCEVConstant>(steps->getStepRecurrence(evolution_));
+    return step == nullptr ? 0 : step->getAPInt().getLimitedValue();
+  }
+
   /// How far an access gets in a pass through its block; 0: it is not known.
   std::uint64_t bytes_of_pass(const llvm::Use& pointer) {
     const llvm::Loop* const loop = loops_.getLoopFor(instruction_of(pointer).getParent());
     if (loop == nullptr || loop->hasNoExitBlocks()) return element_bytes_ * count_;
-    const auto* steps = llvm::dyn_cast<llvm::SCEVAddRecExpr>(place_of_access(pointer));
-    if (steps == nullptr || steps->getLoop() != loop || !steps->isAffine()) return 0;
-    const auto* step = llvm::dyn_cast<llvm::SCEVConstant>(steps->getStepRecurrence(evolution_));
-    return step == nullptr ? 0 : step->getAPInt().getLimitedValue();
+    return step_in(*loop, place_of_access(pointer));
   }
 
   /// The offset of an access in what its pass goes through, if the passes go through the array once and in order.
@@ -113,11 +118,8 @@ class order_check {
       const std::uint64_t passes = passes_through(*loop, *block, dominators_, evolution_);
       if (passes == 0 || passes > count_) return {};
       if (passes > 1) {
-        const auto* steps = llvm::dyn_cast<llvm::SCEVAddRecExpr>(place);
-        if (steps == nullptr || steps->getLoop() != loop || !steps->isAffine()) return {};
-        const auto* step = llvm::dyn_cast<llvm::SCEVConstant>(steps->getStepRecurrence(evolution_));
-        if (step == nullptr || step->getAPInt() != passed) return {};
-        place = steps->getStart();
+        if (step_in(*loop, place) != passed) return {};
+        place = llvm::cast<llvm::SCEVAddRecExpr>(place)->getStart();
       }
       passed *= passes;
       if (passed > element_bytes_ * count_) return {};
@@ -143,9 +145,7 @@ class order_check {
   std::uint64_t bytes_of(const llvm::Use& pointer) const {
     llvm::Instruction& user = instruction_of(pointer);
     if (!is_payload(pointer)) return layout_.getTypeStoreSize(llvm::getLoadStoreType(&user));
-    return layout_.getTypeAllocSize(
-        llvm::cast<llvm::GlobalVariable>(llvm::cast<llvm::CallInst>(user).getArgOperand(2)->stripPointerCasts())
-            ->getValueType());
+    return layout_.getTypeAllocSize(payload_type(llvm::cast<llvm::CallInst>(user), 2));
   }
 
   /// Whether the writes reach all numbers of the elements: the others would be as they were.

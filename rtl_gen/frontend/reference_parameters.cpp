@@ -58,9 +58,7 @@ class reach {
   std::set<const llvm::Function*> seen_;
 };
 
-unsigned index_of(const llvm::CallInst& call) {
-  return static_cast<unsigned>(llvm::cast<llvm::ConstantInt>(call.getArgOperand(0))->getZExtValue());
-}
+unsigned index_of(const llvm::CallInst& call) { return number_in(call, 0); }
 
 }  // namespace
 

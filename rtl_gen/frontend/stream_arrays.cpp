@@ -7,6 +7,7 @@
 
 #include <set>
 
+#include "frontend/calls.hpp"
 #include "frontend/pragmas.hpp"
 
 namespace epiline::frontend {
@@ -108,14 +109,10 @@ std::vector<const llvm::CallInst*> notes(const llvm::Module& module, llvm::Strin
   return calls;
 }
 
-unsigned number(const llvm::CallInst& call, unsigned operand) {
-  return static_cast<unsigned>(llvm::cast<llvm::ConstantInt>(call.getArgOperand(operand))->getZExtValue());
-}
-
 /// What the call of the top notes: a number by the position of a parameter.
 std::map<unsigned, unsigned> counts_noted(const llvm::Module& module, llvm::StringRef name) {
   std::map<unsigned, unsigned> counts;
-  for (const llvm::CallInst* call : notes(module, name)) counts[number(*call, 0)] = number(*call, 1);
+  for (const llvm::CallInst* call : notes(module, name)) counts[number_in(*call, 0)] = number_in(*call, 1);
   return counts;
 }
 
@@ -137,7 +134,7 @@ std::map<unsigned, unsigned> data_arrays(llvm::Module& module) { return counts_n
 
 unsigned returned_position(llvm::Module& module) {
   const std::vector<const llvm::CallInst*> calls = notes(module, "__epiline_returned");
-  return calls.empty() ? 0 : number(*calls.front(), 0);
+  return calls.empty() ? 0 : number_in(*calls.front(), 0);
 }
 
 unsigned flat_index(const std::map<unsigned, unsigned>& arrays, unsigned position) {

@@ -56,18 +56,25 @@ CASES = {
 
 
 class array_order(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+
+    def compile(self, source, *options):
+        """What the compiler says of a source that it takes."""
+        (self.root / "top.cpp").write_text(source)
+        run = subprocess.run([COMPILER, "top.cpp", "--top", "top", "-o", "out", *options], cwd=self.root,
+                             capture_output=True, text=True, check=False)
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        return run.stderr
+
     def test_which_arrays_are_streams(self):
-        with tempfile.TemporaryDirectory() as name:
-            root = pathlib.Path(name)
-            for case, (body, wanted) in CASES.items():
-                with self.subTest(case):
-                    (root / "top.cpp").write_text(SOURCE.format(body=body))
-                    run = subprocess.run(
-                        [COMPILER, "top.cpp", "--top", "top", "--clock", "20", "-o", "out"],
-                        cwd=root, capture_output=True, text=True, check=False)
-                    self.assertEqual(run.returncode, 0, run.stderr)
-                    kept = re.findall(r"^top\.cpp:2: note: the array '(\w)' is kept in memory", run.stderr, re.M)
-                    self.assertEqual("".join(sorted(kept)), wanted, run.stderr)
+        for case, (body, wanted) in CASES.items():
+            with self.subTest(case):
+                said = self.compile(SOURCE.format(body=body), "--clock", "20")
+                kept = re.findall(r"^top\.cpp:2: note: the array '(\w)' is kept in memory", said, re.M)
+                self.assertEqual("".join(sorted(kept)), wanted, said)
 
     def test_a_process_that_is_called_again_goes_through_the_array_again(self):
         source = """\
@@ -82,24 +89,14 @@ void top(const int a[64], hls::stream<int>& out) {
 """
         calls = "load(a, s); store(s, out);"
         for body, is_kept in ((calls, False), ("for (int t = 0; t < 2; ++t) { " + calls + " }", True)):
-            with self.subTest(body), tempfile.TemporaryDirectory() as name:
-                root = pathlib.Path(name)
-                (root / "top.cpp").write_text(source % body)
-                run = subprocess.run(
-                    [COMPILER, "top.cpp", "--top", "top", "-o", "out", "--check", "--levels", "native-gcc", "--levels", "graph"],
-                    cwd=root, capture_output=True, text=True, check=False)
-                self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
-                self.assertEqual("'a' is kept in memory" in run.stderr, is_kept, run.stderr)
+            with self.subTest(body):
+                said = self.compile(source % body, "--check", "--levels", "native-gcc", "--levels", "graph")
+                self.assertEqual("'a' is kept in memory" in said, is_kept, said)
 
     def test_an_array_that_nobody_looks_at_is_taken_all_the_same(self):
-        with tempfile.TemporaryDirectory() as name:
-            root = pathlib.Path(name)
-            (root / "top.cpp").write_text("void top(const int a[64], int b[64]) { for (int i = 0; i < 64; ++i) b[i] = i; }\n")
-            run = subprocess.run([COMPILER, "top.cpp", "--top", "top", "-o", "out"], cwd=root, capture_output=True,
-                                 text=True, check=False)
-            self.assertEqual(run.returncode, 0, run.stderr)
-            self.assertIn("top.cpp:1: note: the array 'a' is not used: its elements are taken before the call", run.stderr)
-            self.assertIn("s_axis_a_tready", (root / "out" / "top.v").read_text())
+        said = self.compile("void top(const int a[64], int b[64]) { for (int i = 0; i < 64; ++i) b[i] = i; }\n")
+        self.assertIn("top.cpp:1: note: the array 'a' is not used: its elements are taken before the call", said)
+        self.assertIn("s_axis_a_tready", (self.root / "out" / "top.v").read_text())
 
 
 if __name__ == "__main__":

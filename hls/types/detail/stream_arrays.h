@@ -20,15 +20,13 @@ inline constexpr bool is_stream<hls::stream<T, Depth>> = true;
 template <class A>
 struct data_of;
 
-/// An array's reference, or data_of where it is data.
-template <class A, bool IsData = (sizeof(A) > most_array_bytes)>
+/// An array's reference, or data_of where it is data: by its size or, `IsStream`, since the source says so.
+template <class A, bool IsStream = false>
 struct value_or_data {
-  using type = A&;
-};
-template <class A>
-struct value_or_data<A, true> {
-  using element = std::remove_all_extents_t<A>;
-  using type = std::conditional_t<is_stream<std::remove_cv_t<element>> || std::is_pointer_v<element>, A&, data_of<A>>;
+  using element = std::remove_cv_t<std::remove_all_extents_t<A>>;
+  static constexpr bool is_data =
+      (IsStream || sizeof(A) > most_array_bytes) && !is_stream<element> && !std::is_pointer_v<element>;
+  using type = std::conditional_t<is_data, data_of<A>, A&>;
 };
 
 /// The number of elements in each parameter that is written as an array, or 0, by position; negative: it is data,
@@ -47,8 +45,7 @@ struct as_written {
   using type = P;
 };
 template <class T, int Count>
-struct as_written<T*, Count>
-    : value_or_data<T[Count < 0 ? -Count : Count], (Count<0 || sizeof(T) * Count> most_array_bytes)> {};
+struct as_written<T*, Count> : value_or_data<T[Count < 0 ? -Count : Count], (Count < 0)> {};
 template <class T>
 struct as_written<T*, 0> {
   using type = T*;

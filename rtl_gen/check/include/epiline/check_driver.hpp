@@ -244,11 +244,12 @@ class stream_slot : public slot {
 
 /// An array whose elements are tokens.
 template <class T, std::size_t Size, int Index>
-class data_slot : public stream_slot<std::remove_cv_t<std::remove_all_extents_t<T>>, 0, Index> {
+class slot_of<hls::detail::data_of<T[Size]>, Index>
+    : public stream_slot<std::remove_cv_t<std::remove_all_extents_t<T>>, 0, Index> {
   using element = std::remove_cv_t<std::remove_all_extents_t<T>>;
 
  public:
-  data_slot() : stream_slot<element, 0, Index>(elements_) {}
+  slot_of() : stream_slot<element, 0, Index>(elements_) {}
   auto& pass() { return values_; }
   void before_call() override {
     visit(values_, [&](element& value) { value = elements_.read(); });
@@ -269,9 +270,6 @@ class data_slot : public stream_slot<std::remove_cv_t<std::remove_all_extents_t<
   hls::stream<element> elements_;
   std::remove_cv_t<T> values_[Size]{};
 };
-
-template <class T, std::size_t Size, int Index>
-class slot_of<hls::detail::data_of<T[Size]>, Index> : public data_slot<T, Size, Index> {};
 
 /// A parameter: what is passed, and its slots.
 template <class P, int Index>
