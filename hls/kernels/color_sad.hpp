@@ -9,12 +9,14 @@
 
 namespace epiline::kernels {
 
-/// The window of a colour SAD, as its sums take it. Config: pixels_per_beat, window_radius.
+/// The window of a colour SAD, as its sums take it. A beat more than the window needs: columns are summed up a beat
+/// after they were made, out of registers, and that those outside the frame are 0 is then a reset of these registers
+/// instead of a gate in front of every adder. Config: pixels_per_beat, window_radius.
 template <class Config>
 struct color_window {
   static constexpr int radius = Config::window_radius;
   static constexpr int largest_difference = 765;
-  static constexpr int delay_beats = window::divide_up(radius, Config::pixels_per_beat);
+  static constexpr int delay_beats = window::divide_up(radius, Config::pixels_per_beat) + 1;
 };
 
 /// Colour SAD over a square window: C(x, y, d) = sum over the N x N pixels around (x, y) of |dR| + |dG| + |dB| between
@@ -67,12 +69,10 @@ class color_sad {
     }
     const auto entering = differences(pixels_.left, pixels_.right, entering_right_, at);
     const auto leaving = differences(pixels_.oldest_left, pixels_.oldest_right, leaving_right_, at);
-    auto newest = columns_.step(entering, leaving, at.column, at.group);
     const bool restart = restarts && at.column.first_row;
-    for (int lane = 0; lane < lanes; ++lane) {
-      for (int d = 0; d < levels; ++d) newest.at[lane][d] = restart ? typename rows::column_t(0) : newest.at[lane][d];
-    }
-    return rows_.step(newest, restart);
+    auto column_place = at.column;
+    for (int lane = 0; lane < lanes; ++lane) column_place.lane_in[lane] = at.column.lane_in[lane] && !restart;
+    return rows_.step(columns_.step(entering, leaving, column_place, at.group), restart);
   }
 
  private:

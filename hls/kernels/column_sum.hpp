@@ -15,7 +15,8 @@ namespace epiline::kernels {
 /// N.
 ///
 /// Border policy: columns outside the frame are 0. Rows outside are 0 because the caller passes differences of 0 there.
-/// State: the RAM. The first row of a frame does not use it, so it needs no clearing.
+/// State: the RAM. The first row of a frame does not use it, so it needs no clearing; a lane outside the frame's
+/// columns keeps sums there that nobody sees, so that no gate stands in front of the RAM.
 ///
 /// Config: levels, parallel_disparities, pixels_per_beat, max_width. Window: radius, largest_difference of two pixels.
 template <class Config, class Window>
@@ -32,7 +33,7 @@ class column_sum {
   struct place {
     int beat;             // of the row, may lie outside the frame
     bool in_columns;      // the beat lies in the columns of the frame
-    bool lane_in[lanes];  // the lane does, too
+    bool lane_in[lanes];  // the lane does, too: its sums are not 0
     bool first_row;       // of a frame
   };
 
@@ -46,18 +47,19 @@ class column_sum {
     for (int lane = 0; lane < lanes; ++lane) {
       const int word = at.beat * groups + int(group.index());
       const bool lane_in = at.lane_in[lane];
-      for (int d = 0; d < levels; ++d) result.at[lane][d] = 0;
+      sum_t sum[levels];
+      for (int d = 0; d < levels; ++d) sum[d] = 0;
       if (at.in_columns && !at.first_row) {
-        for (int d = 0; d < levels; ++d) result.at[lane][d] = sums_[word][lane][d];
+        for (int d = 0; d < levels; ++d) sum[d] = sums_[word][lane][d];
       }
       for (int d = 0; d < levels; ++d) {
         // One adder on the way from RAM to RAM; the net change is known long before.
         const ap_int<11> change = entering.at[lane][d] - leaving.at[lane][d];
-        const sum_t sum = result.at[lane][d] + change;
-        result.at[lane][d] = lane_in ? sum : sum_t(0);
+        sum[d] = sum[d] + change;
+        result.at[lane][d] = lane_in ? sum[d] : sum_t(0);
       }
       if (at.in_columns) {
-        for (int d = 0; d < levels; ++d) sums_[word][lane][d] = result.at[lane][d];
+        for (int d = 0; d < levels; ++d) sums_[word][lane][d] = sum[d];
       }
     }
     return result;

@@ -10,6 +10,7 @@
 #include "schedule/difference_program.hpp"
 #include "schedule/explain.hpp"
 #include "schedule/problem.hpp"
+#include "schedule/reset_gates.hpp"
 #include "schedule/result.hpp"
 
 namespace epiline::schedule {
@@ -126,7 +127,8 @@ std::string describe(const graph& g, source_location where) {
 result make_schedule(const graph& g, const delay_model& model, const options& wanted) {
   const attempts all(g, model);
   const problem& p = all.rules();
-  const attempt a = find_earliest(g, model, all, wanted);
+  attempt a = find_earliest(g, model, all, wanted);
+  ask_for_early_conditions(g, p, a);
 
   std::uint32_t classes = 0;
   const std::vector<std::uint32_t> class_of = contract(p, a.system, classes);
@@ -143,6 +145,7 @@ result make_schedule(const graph& g, const delay_model& model, const options& wa
   }
   std::vector<int> stage(p.count());
   for (variable v = 0; v < p.count(); ++v) stage[v] = static_cast<int>(values[class_of[v]]);
+  move_gates_to_flip_flops(g, model, p, make_result(g, model, wanted, p, stage), stage);
   return make_result(g, model, wanted, p, stage);
 }
 

@@ -11,6 +11,9 @@
 #include "example_graphs.hpp"
 #include "schedule/difference_program.hpp"
 #include "schedule/fan_out.hpp"
+#include "schedule/problem.hpp"
+#include "schedule/reset_gates.hpp"
+#include "schedule/result.hpp"
 
 namespace epiline::testing {
 namespace {
@@ -243,6 +246,37 @@ TEST(make_schedule, keeps_memories_within_their_distance) {
   }
   EXPECT_GE(write, read + 2);  // the block RAM's latency
   EXPECT_LE(write, read + 3);  // the distance
+}
+
+/// A sum of stage 1, let through or not in stage 4, where an adder takes it: the stage of the gate after the move.
+int stage_of_gate(int condition_stage, bool sum_has_another_use) {
+  graph_builder b("gates");
+  const auto in = b.stream("in", true, 16), out = b.stream("out", false, 16);
+  const node_id x = b.read(in, b.always());
+  const node_id value = b.sum(x, x);
+  const node_id condition = b.compare(operation::equal, x, b.constant(16, 5));
+  const node_id gate = b.select(condition, value, b.constant(16, 0));
+  const node_id total = b.sum(gate, sum_has_another_use ? value : x);
+  b.write(out, b.always(), total);
+  const delay_model model("ecp5");
+  const schedule::problem p(b.g, model);
+  std::vector<int> stage(p.count(), 4);
+  stage[schedule::problem::of_node(x)] = 0;
+  stage[schedule::problem::of_node(value)] = 1;
+  stage[schedule::problem::of_node(condition)] = condition_stage;
+  const schedule::options wanted{.period = 6};
+  move_gates_to_flip_flops(b.g, model, p, make_result(b.g, model, wanted, p, stage), stage);
+  EXPECT_EQ(validate(b.g, model, make_result(b.g, model, wanted, p, stage)), "");
+  return stage[schedule::problem::of_node(gate)];
+}
+
+TEST(move_gates_to_flip_flops, makes_a_gate_the_reset_of_the_flip_flops_before_an_adder) {
+  EXPECT_EQ(stage_of_gate(1, false), 3);
+}
+
+TEST(move_gates_to_flip_flops, leaves_a_gate_whose_condition_would_have_no_copies_or_whose_value_is_needed_itself) {
+  EXPECT_EQ(stage_of_gate(2, false), 4);
+  EXPECT_EQ(stage_of_gate(1, true), 4);
 }
 
 TEST(make_schedule, lets_settled_values_be) {
