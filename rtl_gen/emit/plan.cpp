@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "schedule/reset_gates.hpp"
+
 namespace epiline::emit {
 
 using dataflow::graph;
@@ -201,17 +203,14 @@ copies divide_readers(std::vector<std::pair<schedule::reader, double>>& readers,
 /// The loads that synthesis makes resets of flip-flops: the condition of a choice between a value and 0 that nothing
 /// but flip-flops takes.
 std::vector<char> find_resets(const graph& g, const schedule::result& s, const std::vector<schedule::load>& loads) {
-  const auto is_zero = [&](node_id id) {
-    return g.nodes[id].kind == operation::constant && g.nodes[id].value.isZero();
-  };
   std::vector<char> ends_in_flip_flops(g.nodes.size(), 1);
   for (const schedule::load& l : loads)
     if (l.enables || (l.by < g.nodes.size() && s.stage[l.by] <= s.stage[l.value])) ends_in_flip_flops[l.value] = 0;
   std::vector<char> resets;
   for (const schedule::load& l : loads) {
-    const bool chooses = l.by < g.nodes.size() && g.nodes[l.by].kind == operation::select &&
+    const bool chooses = l.by < g.nodes.size() && schedule::gated_value(g, g.nodes[l.by]) != none &&
                          g.nodes[l.by].operands[0] == l.value && ends_in_flip_flops[l.by] != 0;
-    resets.push_back(chooses && (is_zero(g.nodes[l.by].operands[1]) || is_zero(g.nodes[l.by].operands[2])) ? 1 : 0);
+    resets.push_back(chooses ? 1 : 0);
   }
   return resets;
 }

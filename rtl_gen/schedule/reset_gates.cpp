@@ -22,12 +22,6 @@ bool is_zero(const graph& g, node_id id) {
   return g.nodes[id].kind == operation::constant && g.nodes[id].value.isZero();
 }
 
-/// What the choice `n` lets through, or `none`: it is another operation.
-node_id gated_value(const graph& g, const node& n) {
-  if (n.kind != operation::select || is_zero(g, n.operands[1]) == is_zero(g, n.operands[2])) return none;
-  return is_zero(g, n.operands[1]) ? n.operands[2] : n.operands[1];
-}
-
 bool may_move(const graph& g, const problem& p, node_id gate) {
   return g.nodes[gate].width >= narrowest && !p.is_settled()[gate] && !p.decides_issue(problem::of_node(gate));
 }
@@ -159,6 +153,11 @@ class mover {
 };
 
 }  // namespace
+
+node_id gated_value(const graph& g, const node& n) {
+  if (n.kind != operation::select || is_zero(g, n.operands[1]) == is_zero(g, n.operands[2])) return none;
+  return is_zero(g, n.operands[1]) ? n.operands[2] : n.operands[1];
+}
 
 void ask_for_early_conditions(const graph& g, const problem& p, attempt& a) {
   for (node_id id = 0; id < g.nodes.size(); ++id) {
