@@ -64,11 +64,9 @@ class adaptive_sad {
     // Nobody looks at the sums of a frame's first row, for no window's centre is there: it sets the running sums right,
     // and no reset is needed.
     const bool restart = at.column.first_row;
-    auto column_place = at.column;
-    for (int lane = 0; lane < lanes; ++lane) column_place.lane_in[lane] = at.column.lane_in[lane] && !restart;
     const auto columns = columns_.step(differences(0, left, right, at, row0_), differences(1, left, right, at, row1_),
                                        differences(5, left, right, at, row5_), differences(6, left, right, at, row6_),
-                                       column_place, at.group);
+                                       at.column.cleared_if(restart), at.group);
     const auto three = rows3_.step(columns.three, restart);
     const auto five = rows5_.step(columns.five, restart);
     const auto seven = rows7_.step(columns.seven, restart);

@@ -70,9 +70,7 @@ class color_sad {
     const auto entering = differences(pixels_.left, pixels_.right, entering_right_, at);
     const auto leaving = differences(pixels_.oldest_left, pixels_.oldest_right, leaving_right_, at);
     const bool restart = restarts && at.column.first_row;
-    auto column_place = at.column;
-    for (int lane = 0; lane < lanes; ++lane) column_place.lane_in[lane] = at.column.lane_in[lane] && !restart;
-    return rows_.step(columns_.step(entering, leaving, column_place, at.group), restart);
+    return rows_.step(columns_.step(entering, leaving, at.column.cleared_if(restart), at.group), restart);
   }
 
  private:

@@ -2,6 +2,7 @@
 #include <ap_int.h>
 
 #include "kernels/color.hpp"
+#include "kernels/column_place.hpp"
 #include "kernels/level_array.hpp"
 #include "kernels/level_groups.hpp"
 #include "window/bits.hpp"
@@ -30,12 +31,7 @@ class column_sum {
   using differences = level_array<color_difference_t, lanes, levels>;
   using sums = level_array<sum_t, lanes, levels>;
 
-  struct place {
-    int beat;             // of the row, may lie outside the frame
-    bool in_columns;      // the beat lies in the columns of the frame
-    bool lane_in[lanes];  // the lane does, too: its sums are not 0
-    bool first_row;       // of a frame
-  };
+  using place = column_place<lanes>;
 
   /// `entering` belongs to the row at the window's lower end, `leaving` to the row above its upper end.
   /// The same beat may come again after `shortest_row` iterations at the earliest.

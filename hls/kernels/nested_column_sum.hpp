@@ -2,6 +2,7 @@
 #include <ap_int.h>
 
 #include "kernels/color.hpp"
+#include "kernels/column_place.hpp"
 #include "kernels/level_array.hpp"
 #include "kernels/level_groups.hpp"
 #include "window/bits.hpp"
@@ -30,12 +31,7 @@ class nested_column_sum {
   template <int Rows>
   using sums = level_array<ap_uint<window::bits_for(Rows * 255)>, lanes, levels>;
 
-  struct place {
-    int beat;             // of the row, may lie outside the frame
-    bool in_columns;      // the beat lies in the columns of the frame
-    bool lane_in[lanes];  // the lane does, too
-    bool first_row;       // of a frame
-  };
+  using place = column_place<lanes>;
 
   struct result {
     sums<3> three;
