@@ -1,19 +1,23 @@
 #!/usr/bin/env python3
 """Makes ECP5 carry chains as short as they can be, which Yosys and nextpnr leave undone.
 
-carry_chains.py NETLIST.json               lets chains begin in themselves
+carry_chains.py NETLIST.json               lets chains begin and end in themselves
 carry_chains.py --open-ends NETLIST.json   leaves the ends of chains open
 
 A CCU2C cell has two bits of a chain. nextpnr puts a cell before every chain that begins with a carry, constant or not, and
-another after every chain whose last carry is connected, whether or not anything reads it. Where the last bit of a chain is
-unused and no carry in between is read, all bits move up by one and the first makes the carry: no cell stands before it. An end that nothing reads is
-left open: no cell stands after it. That comes last, since the Verilog of a netlist cannot say so.
-Changes the file in place and prints what it did.
+another after every chain whose last carry is connected, whether or not anything reads it. So
+
+- a carry that is read is the sum of one bit more, which adds it to nothing;
+- the first bit of a sum with a constant carry makes its carry from its operands alone, and a LUT its sum, if anything reads it;
+- where the last bit is unused, or the carry is none that is known, all bits move up by one and the first makes the carry.
+
+Where a carry in between is read a chain stays as it is. An end that nothing reads is left open. That comes last, since the
+Verilog of a netlist cannot say so. Changes the file in place and prints what it did.
 """
 
 import sys
 
-from netlist_file import change_netlist, find_readers
+from netlist_file import change_netlist, find_readers, new_nets
 
 OPEN = ["x"]
 # A bit that hands its input A on as carry, whatever carry comes in: nothing propagates (C and D are set), A generates.
@@ -21,51 +25,115 @@ CARRY_OF_A = {"INIT": format(0x000A, "016b"), "INJECT": "NO", "B": ["0"], "C": [
 
 
 def find_chains(module):
-    """The chains of CCU2C cells, each from its first cell to its last."""
-    cells = [cell for cell in module["cells"].values() if cell["type"] == "CCU2C"]
-    after = {cell["connections"]["CIN"][0]: cell for cell in cells}
-    made = {cell["connections"]["COUT"][0] for cell in cells} - set(OPEN)
+    """The chains of CCU2C cells, each as the names of its cells from the first to the last."""
+    nets = {name: cell["connections"] for name, cell in module["cells"].items() if cell["type"] == "CCU2C"}
+    after = {of["CIN"][0]: name for name, of in nets.items()}
+    made = {of["COUT"][0] for of in nets.values()} - set(OPEN)
     chains = []
-    for cell in cells:
-        if cell["connections"]["CIN"][0] in made:
+    for name, of in nets.items():
+        if of["CIN"][0] in made:
             continue
-        chain = [cell]
-        while (carry := chain[-1]["connections"]["COUT"][0]) in after and carry in made:
+        chain = [name]
+        while (carry := nets[chain[-1]]["COUT"][0]) in after and carry in made:
             chain.append(after[carry])
         chains.append(chain)
     return chains
 
 
-def bits_of(chain):
+def bits_of(cells):
     """What each bit of a chain has: its function and its nets."""
-    for cell in chain:
+    for cell in cells:
         for half in "01":
             bit = {port: cell["connections"][port + half] for port in "ABCDS"}
             yield {"INIT": cell["parameters"]["INIT" + half], "INJECT": cell["parameters"]["INJECT1_" + half], **bit}
 
 
-def set_bits(chain, bits):
-    for index, bit in enumerate(bits):
-        cell, half = chain[index // 2], "01"[index % 2]
-        cell["parameters"]["INIT" + half] = bit["INIT"]
-        cell["parameters"]["INJECT1_" + half] = bit["INJECT"]
-        for port in "ABCDS":
-            cell["connections"][port + half] = bit[port]
+def propagates(bit):
+    """The table of when a bit hands its carry on, by its operands B and A; None if it hangs on more than these."""
+    c, d = bit["C"][0], bit["D"][0]
+    if c not in ("0", "1") or d not in ("0", "1"):
+        return None
+    return bit["INIT"][::-1][8 * int(d) + 4 * int(c):][:4]
 
 
-def begin_in_themselves(module):
-    """Returns how many chains now do."""
-    readers = find_readers(module)
+def generates(bit):
+    """The table of a bit's carry where it does not hand one on."""
+    return bit["INIT"][::-1][:4]
+
+
+def only_propagates(bit):
+    """Whether a bit hands on whatever carry comes in."""
+    table = propagates(bit) or "0000"
+    possible = [2 * b + a for b in (0, 1) for a in (0, 1) if bit["A"][0] != str(1 - a) and bit["B"][0] != str(1 - b)]
+    return all(table[place] == "1" for place in possible)
+
+
+def end_in_a_sum(bits, carry_out, readers):
+    """The bits of a chain without unused ones at its end, with one more that gives the carry `carry_out` if that is read."""
+    carry_is_read = carry_out != OPEN and readers[carry_out[0]]
+    while len(bits) > 1 and not readers[bits[-1]["S"][0]] and (not carry_is_read or only_propagates(bits[-1])):
+        bits.pop()
+    if carry_is_read:
+        bits.append({"INIT": "0" * 16, "INJECT": "NO", "A": ["0"], "B": ["0"], "C": ["0"], "D": ["0"], "S": carry_out})
+    return bits
+
+
+def begin_in_a_bit(bits, carry, readers, nets):
+    """The bits of a chain that begins with `carry`, so that nothing has to come in, and the LUT that makes the first sum, or
+    None."""
+    first, table = bits[0], propagates(bits[0])
+    read = bool(readers[first["S"][0]])
+    constant = carry[0] in ("0", "1") and table is not None and first["INJECT"] == "NO"
+    if not constant or (read and len(bits) % 2 == 1):
+        return [{**CARRY_OF_A, "A": carry, "S": nets()}, *bits], None
+    made = "".join(carry[0] if p == "1" else g for p, g in zip(table, generates(first)))
+    head = {**first, "INIT": "0" * 12 + made[::-1], "C": ["1"], "D": ["1"], "S": nets()}
+    if not read:
+        return [head, *bits[1:]], None
+    total = "".join(str(int(p) ^ int(carry[0])) for p in table)
+    lut = {"parameters": {"INIT": total[::-1] * 4}, "connections": {**{p: first[p] for p in "AB"}, "C": ["0"], "D": ["0"], "Z": first["S"]}}
+    return [head, *bits[1:]], lut
+
+
+def write_bits(module, chain, bits, carry, nets):
+    """Makes `bits` the bits of the chain, with as many cells as they take; the first cell's carry is `carry`."""
+    if len(bits) % 2 == 1:
+        bits = [*bits, {"INIT": "0" * 16, "INJECT": "NO", **{p: ["0"] for p in "ABCD"}, "S": nets()}]
+    pattern = module["cells"][chain[0]]
+    for index in range(max(len(chain), len(bits) // 2)):
+        name = chain[index] if index < len(chain) else f"{chain[-1]}$more{index}"
+        if 2 * index >= len(bits):
+            del module["cells"][name]
+            continue
+        halves = list(zip("01", bits[2 * index:]))
+        connections = {port + half: bit[port] for half, bit in halves for port in "ABCDS"}
+        parameters = {"INIT" + half: bit["INIT"] for half, bit in halves} | {"INJECT1_" + half: bit["INJECT"] for half, bit in halves}
+        cell = module["cells"].setdefault(name, {**pattern, "attributes": dict(pattern.get("attributes", {}))})
+        carry_out = nets()
+        cell["parameters"] = parameters
+        cell["connections"] = {**connections, "CIN": carry, "COUT": carry_out}
+        carry = carry_out
+
+
+def begin_and_end_in_themselves(module):
+    """Returns how many chains were changed."""
+    readers, nets = find_readers(module), new_nets(module)
     changed = 0
     for chain in find_chains(module):
-        carry, end = chain[0]["connections"]["CIN"], chain[-1]["connections"]
-        between = [cell["connections"]["COUT"][0] for cell in chain[:-1]]
-        if carry == OPEN or readers[end["COUT"][0]] or readers[end["S1"][0]] or any(len(readers[net]) > 1 for net in between):
+        cells = [module["cells"][name] for name in chain]
+        carry, carry_out = cells[0]["connections"]["CIN"], cells[-1]["connections"]["COUT"]
+        if any(len(readers[cell["connections"]["COUT"][0]]) > 1 for cell in cells[:-1]):
             continue
-        bits = list(bits_of(chain))
-        unused = bits.pop()["S"]  # becomes the first bit's sum
-        set_bits(chain, [{**CARRY_OF_A, "A": carry, "S": unused}, *bits])
-        chain[0]["connections"]["CIN"] = OPEN
+        lut = None
+        bits = end_in_a_sum(list(bits_of(cells)), carry_out, readers)
+        if carry != OPEN:
+            bits, lut = begin_in_a_bit(bits, carry, readers, nets)
+        elif len(bits) > 2 * len(cells) - 2 and bits[-1]["S"] != carry_out:
+            continue
+        write_bits(module, chain, bits, OPEN, nets)
+        if lut:
+            directions = {p: "input" for p in "ABCD"} | {"Z": "output"}
+            module["cells"][chain[0] + "$first"] = {"hide_name": 1, "type": "LUT4", "attributes": {}, "port_directions": directions, **lut}
         changed += 1
     return changed
 
@@ -75,7 +143,7 @@ def open_ends(module):
     readers = find_readers(module)
     opened = 0
     for chain in find_chains(module):
-        end = chain[-1]["connections"]
+        end = module["cells"][chain[-1]]["connections"]
         if end["COUT"] != OPEN and not readers[end["COUT"][0]]:
             end["COUT"] = OPEN
             opened += 1
@@ -83,7 +151,7 @@ def open_ends(module):
 
 
 def main():
-    steps = {(): (begin_in_themselves, "carry chains begin in themselves"), ("--open-ends",): (open_ends, "ends left open")}
+    steps = {(): (begin_and_end_in_themselves, "carry chains begin and end in themselves"), ("--open-ends",): (open_ends, "ends left open")}
     arguments = sys.argv[1:]
     step = steps.get(tuple(arguments[:-1]))
     if not arguments or step is None or arguments[-1].startswith("-"):

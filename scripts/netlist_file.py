@@ -24,6 +24,19 @@ def find_readers(module):
     return readers
 
 
+class new_nets:
+    """Numbers of nets that a module does not have yet."""
+
+    def __init__(self, module):
+        everything = [b for cell in module["cells"].values() for bits in cell["connections"].values() for b in bits]
+        everything += [b for port in module["ports"].values() for b in port["bits"]]
+        self.last = max((b for b in everything if isinstance(b, int)), default=1)
+
+    def __call__(self):
+        self.last += 1
+        return [self.last]
+
+
 def change_netlist(name, change):
     """Calls `change` with every module of the file `name` and returns the sum of what it returns. What is no netlist ends
     the program with one line, and the file stays as it is."""

@@ -111,10 +111,11 @@ fi
 if loop=$(grep -m1 -A3 'found logic loop' "$folder/early_check.txt"); then
   fail "the Verilog has a combinational loop: $loop"
 fi
-# Both by way of scripts/netlist_file.py.
+# All by way of scripts/netlist_file.py.
 if [ "$family" = ecp5 ]; then
   python3 scripts/ram_output_registers.py "$folder/$top.json"
   python3 scripts/carry_chains.py "$folder/$top.json"
+  python3 scripts/join_carry_chains.py "$folder/$top.json"
 fi
 (cd "$folder" && "$yosys" -Q -T -q -l yosys_netlist.log -p "
   read_json $top.json

@@ -1,6 +1,7 @@
-"""scripts/carry_chains.py: chains of ECP5 carry cells compute what they did, with fewer cells around them."""
+"""scripts/carry_chains.py, join_carry_chains.py: chains of ECP5 carry cells compute what they did, in fewer cells and tiles."""
 
 import copy
+import itertools
 import json
 import pathlib
 import random
@@ -10,15 +11,18 @@ import tempfile
 import unittest
 
 root = pathlib.Path(__file__).resolve().parents[2]
-script = root / "scripts" / "carry_chains.py"
-sys.path.insert(0, str(root / "scripts"))
+scripts = root / "scripts"
+sys.path.insert(0, str(scripts))
 import carry_chains  # noqa: E402
+import join_carry_chains  # noqa: E402
+from carry_chains import begin_and_end_in_themselves as change  # noqa: E402
 
 SUM = format(0x96AA, "016b")  # the function that Yosys gives a bit of a sum: (C ? B ^ D' : B) + A, as a table
 
 
-def chain_of(width, carry_in, reads_carry):
-    """A module with a chain of `width` bits whose inputs are ports; the net of the carry in is `carry_in`."""
+def chain_of(width, carry_in, reads_carry, reads_sums=True):
+    """A module with a chain of `width` bits whose inputs are ports; the net of the carry in is `carry_in`. Bits of the last
+    cell beyond `width` hand the carry on."""
     numbers = iter(range(10, 10000))
     module = {"ports": {}, "cells": {}}
 
@@ -33,11 +37,11 @@ def chain_of(width, carry_in, reads_carry):
             place = 2 * cell + half
             used = place < width
             connections[f"A{half}"] = port(f"a{place}", "input", next(numbers)) if used else ["0"]
-            connections[f"B{half}"] = port(f"b{place}", "input", next(numbers)) if used else ["0"]
+            connections[f"B{half}"] = port(f"b{place}", "input", next(numbers)) if used else ["1"]
             connections[f"C{half}"] = ["0"]
             connections[f"D{half}"] = ["1"]
             total = next(numbers)
-            connections[f"S{half}"] = port(f"s{place}", "output", total) if used else [total]
+            connections[f"S{half}"] = port(f"s{place}", "output", total) if used and reads_sums else [total]
         carry = connections["COUT"] = [next(numbers)]
         module["cells"][f"carry{cell}"] = {
             "type": "CCU2C",
@@ -59,7 +63,7 @@ def outputs(module, inputs):
             if port["direction"] == "input":
                 nets[port["bits"][0]] = inputs[name]
         for chain in carry_chains.find_chains(module):
-            for cell in chain:
+            for cell in (module["cells"][name] for name in chain):
                 value = {port: nets.get(bits[0]) for port, bits in cell["connections"].items()}
                 carry = value["CIN"]
                 for half in "01":
@@ -70,6 +74,10 @@ def outputs(module, inputs):
                     carry = carry if propagate else generate
                 if cell["connections"]["COUT"] != ["x"]:
                     nets[cell["connections"]["COUT"][0]] = carry
+        for cell in module["cells"].values():
+            if cell["type"] == "LUT4":
+                a, b, c, d = (nets[cell["connections"][p][0]] for p in "ABCD")
+                nets[cell["connections"]["Z"][0]] = int(cell["parameters"]["INIT"], 2) >> (8 * d + 4 * c + 2 * b + a) & 1
         return {n: nets[p["bits"][0]] for n, p in module["ports"].items() if p["direction"] == "output"}
 
     found = evaluate(0)
@@ -88,29 +96,33 @@ class carry_chain(unittest.TestCase):
         after = copy.deepcopy(module)
         return change(after), after
 
-    def test_chains_with_an_unused_last_bit_begin_in_themselves(self):
-        for width in (1, 3, 7):
-            for carry_in in ("0", "1", 5):
-                with self.subTest(width=width, carry_in=carry_in):
-                    before = chain_of(width, carry_in, False)
-                    count, after = self.changed(before, carry_chains.begin_in_themselves)
-                    self.assertEqual(count, 1)
-                    self.assertEqual(after["cells"]["carry0"]["connections"]["CIN"], ["x"])
-                    self.assertEqual(len(after["cells"]), len(before["cells"]))
-                    self.equal(before, after)
-                    self.assertEqual(carry_chains.begin_in_themselves(after), 0, "a second time there is nothing left")
-
-    def test_chains_that_are_full_or_whose_carry_is_read_stay(self):
-        for width, reads_carry in ((4, False), (4, True), (3, True)):
-            with self.subTest(width=width, reads_carry=reads_carry):
-                before = chain_of(width, "1", reads_carry)
-                count, after = self.changed(before, carry_chains.begin_in_themselves)
-                self.assertEqual((count, after), (0, before))
+    def test_chains_begin_and_end_in_themselves(self):
+        """Nothing has to come into a chain, nor out of its end, so that nextpnr puts no cell before it or after it."""
+        for width, carry_in, reads_carry, reads_sums in itertools.product(
+            (1, 2, 3, 4, 7, 8), ("0", "1", 5), (False, True), (True, False)
+        ):
+            if not reads_carry and not reads_sums:
+                continue
+            with self.subTest(width=width, carry_in=carry_in, reads_carry=reads_carry, reads_sums=reads_sums):
+                before = chain_of(width, carry_in, reads_carry, reads_sums)
+                count, after = self.changed(before, change)
+                self.assertEqual(count, 1)
+                self.equal(before, after)
+                (chain,) = carry_chains.find_chains(after)
+                self.assertEqual(after["cells"][chain[0]]["connections"]["CIN"], ["x"])
+                ends = {bit for port in after["ports"].values() for bit in port["bits"]}
+                self.assertNotIn(after["cells"][chain[-1]]["connections"]["COUT"][0], ends)
+                bits = width + reads_carry
+                folded = carry_in != 5 and (not reads_sums or bits % 2 == 0)
+                self.assertEqual(len(chain), (bits + (0 if folded else 1) + 1) // 2)
+                luts = [cell for cell in after["cells"].values() if cell["type"] == "LUT4"]
+                self.assertEqual(len(luts), 1 if folded and reads_sums else 0)
+                self.assertEqual(self.changed(after, change), (0, after), "a second time there is nothing left")
 
     def test_chains_with_a_carry_that_is_read_on_the_way_stay(self):
         before = chain_of(5, "1", False)
         before["ports"]["carry_of_4"] = {"direction": "output", "bits": before["cells"]["carry1"]["connections"]["COUT"]}
-        count, after = self.changed(before, carry_chains.begin_in_themselves)
+        count, after = self.changed(before, change)
         self.assertEqual((count, after), (0, before))
 
     def test_ends_that_nothing_reads_are_left_open(self):
@@ -128,17 +140,95 @@ class carry_chain(unittest.TestCase):
     def test_two_chains_stay_apart(self):
         one, other = chain_of(3, "0", False), chain_of(4, "1", False)
         module = {"ports": dict(one["ports"]), "cells": dict(one["cells"])}
-        shifted = json.loads(json.dumps(other))
-        for cell in shifted["cells"].values():
-            cell["connections"] = {p: [b + 1000 if isinstance(b, int) else b for b in bits]
-                                   for p, bits in cell["connections"].items()}
-        for name, port in shifted["ports"].items():
-            module["ports"]["other_" + name] = {**port, "bits": [port["bits"][0] + 1000]}
-        module["cells"].update({"other_" + n: c for n, c in shifted["cells"].items()})
-        count, after = self.changed(module, carry_chains.begin_in_themselves)
-        self.assertEqual(count, 1)
+        other = renamed(other, "other_", 1000)
+        module["ports"].update(other["ports"])
+        module["cells"].update(other["cells"])
+        count, after = self.changed(module, change)
+        self.assertEqual(count, 2)
         self.assertEqual(carry_chains.open_ends(after), 2)
         self.equal(module, after)
+
+
+def renamed(module, prefix, shift):
+    """The module with `prefix` before its names and other nets."""
+    def nets(bits):
+        return [bit + shift if isinstance(bit, int) else bit for bit in bits]
+
+    return {
+        "ports": {prefix + name: {**port, "bits": nets(port["bits"])} for name, port in module["ports"].items()},
+        "cells": {
+            prefix + name: {**cell, "connections": {p: nets(bits) for p, bits in cell["connections"].items()}}
+            for name, cell in copy.deepcopy(module["cells"]).items()
+        },
+    }
+
+
+def sums_that_meet(widths):
+    """A module with chains that begin in themselves, of `widths` bits each, and one that adds the first bits of all."""
+    module = {"ports": {}, "cells": {}}
+    for index, width in enumerate(widths):
+        chain = chain_of(width, 5, False)
+        change(chain)
+        one = renamed(chain, f"chain{index}_", 10000 * (index + 1))
+        module["ports"].update(one["ports"])
+        module["cells"].update(one["cells"])
+    total = chain_of(len(widths), "0", False)
+    for index in range(len(widths)):
+        total["cells"][f"carry{index // 2}"]["connections"][f"A{index % 2}"] = module["ports"][f"chain{index}_s0"]["bits"]
+        del total["ports"][f"a{index}"]
+    module["ports"].update(total["ports"])
+    module["cells"].update({"total_" + name: cell for name, cell in total["cells"].items()})
+    change(module)
+    carry_chains.open_ends(module)
+    return module
+
+
+def sizes(module):
+    return sorted(len(chain) for chain in carry_chains.find_chains(module))
+
+
+class joined_chains(unittest.TestCase):
+    def test_chains_whose_sums_meet_fill_tiles_together(self):
+        """Three chains of five cells take four tiles, not six; the chain that adds them, which waits for them, stays."""
+        before = sums_that_meet((9, 9, 9))
+        self.assertEqual(sizes(before), [2, 5, 5, 5])
+        after = copy.deepcopy(before)
+        self.assertEqual(join_carry_chains.join(after), 2)
+        self.assertEqual(sizes(after), [2, 15])
+        numbers = random.Random(2)
+        for _ in range(200):
+            inputs = {n: numbers.getrandbits(1) for n, p in before["ports"].items() if p["direction"] == "input"}
+            self.assertEqual(outputs(before, inputs), outputs(after, inputs))
+        self.assertEqual(join_carry_chains.join(after), 0, "a second time there is nothing left")
+
+    def test_chains_stay_alone_where_no_tile_is_saved(self):
+        for widths in ((7, 7, 7), (15, 15), (31, 9)):
+            with self.subTest(widths=widths):
+                module = sums_that_meet(widths)
+                before = copy.deepcopy(module)
+                self.assertEqual(join_carry_chains.join(module), 0)
+                self.assertEqual(module, before)
+
+    def test_chains_that_need_their_carry_are_not_joined(self):
+        module = sums_that_meet((9, 9, 9))
+        first = module["cells"]["chain0_carry0"]
+        module["ports"]["carry"] = {"direction": "input", "bits": [9]}
+        first["connections"]["CIN"] = [9]
+        self.assertEqual(join_carry_chains.join(module), 1, "the other two")
+        self.assertEqual(first["connections"]["CIN"], [9])
+        module = sums_that_meet((9, 9))
+        end = module["cells"]["chain0_carry4"]["connections"]
+        end["COUT"] = [8]
+        module["ports"]["carry_out"] = {"direction": "output", "bits": [8]}
+        self.assertEqual(join_carry_chains.join(module), 0)
+
+    def test_chains_that_wait_for_different_numbers_of_chains_are_not_joined(self):
+        """Joined they could close a loop: the one that comes first may wait for the other."""
+        module = sums_that_meet((9, 9))
+        first, second = module["cells"]["chain0_carry0"], module["cells"]["chain1_carry4"]
+        self.assertEqual(join_carry_chains.join(copy.deepcopy(module)), 1)
+        first["connections"]["A1"] = second["connections"]["S0"]
+        self.assertEqual(join_carry_chains.join(module), 0)
 
 
 class the_program(unittest.TestCase):
@@ -147,13 +237,13 @@ class the_program(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.file = pathlib.Path(folder.name) / "netlist.json"
 
-    def run_script(self, *arguments):
-        return subprocess.run([sys.executable, "-B", script, *arguments], text=True, capture_output=True, check=False)
+    def run_script(self, *arguments, script="carry_chains.py"):
+        return subprocess.run([sys.executable, "-B", scripts / script, *arguments], text=True, capture_output=True, check=False)
 
     def test_changes_the_file_in_place(self):
         before = chain_of(3, "1", False)
         self.file.write_text(json.dumps({"modules": {"top": before}}), encoding="utf-8")
-        self.assertEqual(self.run_script(self.file).stdout, "1 carry chains begin in themselves\n")
+        self.assertEqual(self.run_script(self.file).stdout, "1 carry chains begin and end in themselves\n")
         self.assertEqual(self.run_script("--open-ends", self.file).stdout, "1 ends left open\n")
         after = json.loads(self.file.read_text(encoding="utf-8"))["modules"]["top"]
         self.assertEqual(after["cells"]["carry1"]["connections"]["COUT"], ["x"])
@@ -167,12 +257,15 @@ class the_program(unittest.TestCase):
             self.assertIn(f"carry_chains.py: error: {self.file} is not a netlist that Yosys wrote", ended.stderr)
             self.assertEqual(self.file.read_text(encoding="utf-8"), text)
         self.assertIn("error", self.run_script(self.file.with_name("none.json")).stderr)
+        self.assertIn("join_carry_chains.py: error", self.run_script(self.file, script="join_carry_chains.py").stderr)
 
     def test_says_how_it_is_called(self):
         for arguments in ((), ("--shorten", "x.json"), ("a.json", "b.json"), ("--open-ends",)):
             ended = self.run_script(*arguments)
             self.assertEqual(ended.returncode, 1)
             self.assertTrue(ended.stderr.startswith("carry_chains.py NETLIST.json"), ended.stderr)
+        ended = self.run_script(script="join_carry_chains.py")
+        self.assertEqual((ended.returncode, ended.stderr), (1, "join_carry_chains.py NETLIST.json\n"))
 
 
 if __name__ == "__main__":
