@@ -8,8 +8,8 @@ tiles, of which nothing but single LUTs can use what is left. A chain that begin
 notice of the carry that comes in, so it can as well follow another one: three chains of five cells take four tiles and not
 six. Only the placer sees a difference.
 
-Chains are joined where that saves a tile, those first that belong together: whose sums meet in the same chain, RAM or
-flip-flop, one or two chains on. Both have as many chains on the longest way to them without a flip-flop, so what looks like
+Chains are joined where that saves a tile, if they belong together: if their sums meet in the same chain, RAM or flip-flop.
+Chains that meet further on stay apart: joining those as well saves more tiles and makes the wires longer (docs/fpga.md). Both have as many chains on the longest way to them without a flip-flop, so what looks like
 a way from one to the next closes no loop; timing analysis counts it, but it is hardly longer than the ways there are.
 Changes the file in place and prints what it did.
 """
@@ -28,9 +28,7 @@ LARGEST = 4 * CELLS_IN_A_TILE
 SAME_CLOCK = {"TRELLIS_FF": (), "DP16KD": (), "DPR16X4": ("RAD",)}
 GATES = ("LUT4", "PFUMX", "L6MUX21")
 # A net with more readers says nothing of where its driver belongs, nor does a place where more chains meet.
-MANY_READERS, MANY_CHAINS = 8, 24
-# What a place two chains on counts for, beside the next one.
-FURTHER_ON = 0.1
+MANY_READERS, MANY_CHAINS = 8, 12
 
 
 def tiles(cells):
@@ -91,15 +89,8 @@ def meeting_places(module, chains):
 
 def nearness(places):
     """Per pair of chains: how many of their bits meet."""
-    wider = []
-    for of_chain in places:
-        further = collections.Counter(of_chain)
-        for place, bits in of_chain.items():
-            for after, more in (places[place] if isinstance(place, int) else {}).items():
-                further[after] += FURTHER_ON * min(bits, more)
-        wider.append(further)
     meeting = collections.defaultdict(list)
-    for chain, of_chain in enumerate(wider):
+    for chain, of_chain in enumerate(places):
         for place in of_chain:
             meeting[place].append(chain)
     near = collections.Counter()
@@ -108,9 +99,9 @@ def nearness(places):
             continue
         for index, one in enumerate(there):
             if isinstance(place, int) and one != place:
-                near[min(one, place), max(one, place)] += wider[one][place]
+                near[min(one, place), max(one, place)] += places[one][place]
             for other in there[:index]:
-                near[other, one] += min(wider[one][place], wider[other][place])
+                near[other, one] += min(places[one][place], places[other][place])
     return near
 
 
