@@ -183,7 +183,7 @@ function(epiline_add_netlist_model target)
     DEPENDS ${arg_VERILOG} ${arg_DEPENDS} ${root}/scripts/synthesize.sh
             ${root}/scripts/adders.v ${root}/scripts/ecp5_operators.v
             ${root}/scripts/ecp5_copies.v ${root}/scripts/ice40_copies.v
-            ${root}/scripts/ram_output_registers.py ${root}/scripts/carry_chains.py
+            ${root}/scripts/ram_output_registers.py ${root}/scripts/carry_chains.py ${root}/scripts/join_carry_chains.py
             ${root}/scripts/netlist_file.py ${root}/scripts/netlist_resources.py
     COMMENT "Synthesizing ${arg_TOP} of ${target}"
     VERBATIM)
