@@ -22,6 +22,8 @@ from netlist_file import change_netlist, find_readers, new_nets
 OPEN = ["x"]
 # A bit that hands its input A on as carry, whatever carry comes in: nothing propagates (C and D are set), A generates.
 CARRY_OF_A = {"INIT": format(0x000A, "016b"), "INJECT": "NO", "B": ["0"], "C": ["1"], "D": ["1"]}
+# A bit that adds the carry to nothing, and hands none on.
+CARRY_AS_SUM = {"INIT": "0" * 16, "INJECT": "NO", "A": ["0"], "B": ["0"], "C": ["0"], "D": ["0"]}
 
 
 def find_chains(module):
@@ -70,11 +72,11 @@ def only_propagates(bit):
 
 def end_in_a_sum(bits, carry_out, readers):
     """The bits of a chain without unused ones at its end, with one more that gives the carry `carry_out` if that is read."""
-    carry_is_read = carry_out != OPEN and readers[carry_out[0]]
+    carry_is_read = carry_out != OPEN and bool(readers[carry_out[0]])
     while len(bits) > 1 and not readers[bits[-1]["S"][0]] and (not carry_is_read or only_propagates(bits[-1])):
         bits.pop()
     if carry_is_read:
-        bits.append({"INIT": "0" * 16, "INJECT": "NO", "A": ["0"], "B": ["0"], "C": ["0"], "D": ["0"], "S": carry_out})
+        bits.append({**CARRY_AS_SUM, "S": carry_out})
     return bits
 
 
@@ -85,34 +87,41 @@ def begin_in_a_bit(bits, carry, readers, nets):
     read = bool(readers[first["S"][0]])
     constant = carry[0] in ("0", "1") and table is not None and first["INJECT"] == "NO"
     if not constant or (read and len(bits) % 2 == 1):
-        return [{**CARRY_OF_A, "A": carry, "S": nets()}, *bits], None
+        return [{**CARRY_OF_A, "A": carry, "S": [next(nets)]}, *bits], None
     made = "".join(carry[0] if p == "1" else g for p, g in zip(table, generates(first)))
-    head = {**first, "INIT": "0" * 12 + made[::-1], "C": ["1"], "D": ["1"], "S": nets()}
+    head = {**first, "INIT": "0" * 12 + made[::-1], "C": ["1"], "D": ["1"], "S": [next(nets)]}
     if not read:
         return [head, *bits[1:]], None
     total = "".join(str(int(p) ^ int(carry[0])) for p in table)
-    lut = {"parameters": {"INIT": total[::-1] * 4}, "connections": {**{p: first[p] for p in "AB"}, "C": ["0"], "D": ["0"], "Z": first["S"]}}
+    pins = {"A": first["A"], "B": first["B"], "C": ["0"], "D": ["0"], "Z": first["S"]}
+    lut = {
+        "hide_name": 1,
+        "type": "LUT4",
+        "parameters": {"INIT": total[::-1] * 4},
+        "attributes": {},
+        "port_directions": {pin: "output" if pin == "Z" else "input" for pin in pins},
+        "connections": pins,
+    }
     return [head, *bits[1:]], lut
 
 
-def write_bits(module, chain, bits, carry, nets):
-    """Makes `bits` the bits of the chain, with as many cells as they take; the first cell's carry is `carry`."""
+def write_bits(module, chain, bits, nets):
+    """Makes `bits` the bits of the chain, with as many cells as they take; nothing comes into its first."""
     if len(bits) % 2 == 1:
-        bits = [*bits, {"INIT": "0" * 16, "INJECT": "NO", **{p: ["0"] for p in "ABCD"}, "S": nets()}]
-    pattern = module["cells"][chain[0]]
-    for index in range(max(len(chain), len(bits) // 2)):
-        name = chain[index] if index < len(chain) else f"{chain[-1]}$more{index}"
-        if 2 * index >= len(bits):
-            del module["cells"][name]
-            continue
-        halves = list(zip("01", bits[2 * index:]))
-        connections = {port + half: bit[port] for half, bit in halves for port in "ABCDS"}
-        parameters = {"INIT" + half: bit["INIT"] for half, bit in halves} | {"INJECT1_" + half: bit["INJECT"] for half, bit in halves}
-        cell = module["cells"].setdefault(name, {**pattern, "attributes": dict(pattern.get("attributes", {}))})
-        carry_out = nets()
-        cell["parameters"] = parameters
-        cell["connections"] = {**connections, "CIN": carry, "COUT": carry_out}
-        carry = carry_out
+        bits = [*bits, {**CARRY_AS_SUM, "S": [next(nets)]}]
+    count, pattern, carry = len(bits) // 2, module["cells"][chain[0]], OPEN
+    for name in chain[count:]:
+        del module["cells"][name]
+    more = [f"{chain[-1]}$more{index}" for index in range(len(chain), count)]
+    for name, low, high in zip([*chain[:count], *more], bits[::2], bits[1::2]):
+        pins = {"CIN": carry, "COUT": [next(nets)]}
+        for half, bit in (("0", low), ("1", high)):
+            pins.update({port + half: bit[port] for port in "ABCDS"})
+        module["cells"].setdefault(name, dict(pattern)).update(
+            parameters={"INIT0": low["INIT"], "INIT1": high["INIT"], "INJECT1_0": low["INJECT"], "INJECT1_1": high["INJECT"]},
+            connections=pins,
+        )
+        carry = pins["COUT"]
 
 
 def begin_and_end_in_themselves(module):
@@ -122,18 +131,12 @@ def begin_and_end_in_themselves(module):
     for chain in find_chains(module):
         cells = [module["cells"][name] for name in chain]
         carry, carry_out = cells[0]["connections"]["CIN"], cells[-1]["connections"]["COUT"]
-        if any(len(readers[cell["connections"]["COUT"][0]]) > 1 for cell in cells[:-1]):
+        if carry == OPEN or any(len(readers[cell["connections"]["COUT"][0]]) > 1 for cell in cells[:-1]):
             continue
-        lut = None
-        bits = end_in_a_sum(list(bits_of(cells)), carry_out, readers)
-        if carry != OPEN:
-            bits, lut = begin_in_a_bit(bits, carry, readers, nets)
-        elif len(bits) > 2 * len(cells) - 2 and bits[-1]["S"] != carry_out:
-            continue
-        write_bits(module, chain, bits, OPEN, nets)
+        bits, lut = begin_in_a_bit(end_in_a_sum(list(bits_of(cells)), carry_out, readers), carry, readers, nets)
+        write_bits(module, chain, bits, nets)
         if lut:
-            directions = {p: "input" for p in "ABCD"} | {"Z": "output"}
-            module["cells"][chain[0] + "$first"] = {"hide_name": 1, "type": "LUT4", "attributes": {}, "port_directions": directions, **lut}
+            module["cells"][chain[0] + "$first"] = lut
         changed += 1
     return changed
 
@@ -151,7 +154,10 @@ def open_ends(module):
 
 
 def main():
-    steps = {(): (begin_and_end_in_themselves, "carry chains begin and end in themselves"), ("--open-ends",): (open_ends, "ends left open")}
+    steps = {
+        (): (begin_and_end_in_themselves, "carry chains begin and end in themselves"),
+        ("--open-ends",): (open_ends, "ends left open"),
+    }
     arguments = sys.argv[1:]
     step = steps.get(tuple(arguments[:-1]))
     if not arguments or step is None or arguments[-1].startswith("-"):

@@ -1,6 +1,7 @@
 """Netlists that Yosys wrote as JSON, changed in place; shared by the scripts that do so after synthesis."""
 
 import collections
+import itertools
 import json
 import pathlib
 import sys
@@ -24,17 +25,11 @@ def find_readers(module):
     return readers
 
 
-class new_nets:
-    """Numbers of nets that a module does not have yet."""
-
-    def __init__(self, module):
-        everything = [b for cell in module["cells"].values() for bits in cell["connections"].values() for b in bits]
-        everything += [b for port in module["ports"].values() for b in port["bits"]]
-        self.last = max((b for b in everything if isinstance(b, int)), default=1)
-
-    def __call__(self):
-        self.last += 1
-        return [self.last]
+def new_nets(module):
+    """Numbers of nets that a module does not have yet, one after another."""
+    used = [bit for cell in module["cells"].values() for bits in cell["connections"].values() for bit in bits]
+    used += [bit for port in module["ports"].values() for bit in port["bits"]]
+    return itertools.count(1 + max((bit for bit in used if isinstance(bit, int)), default=1))
 
 
 def change_netlist(name, change):
