@@ -27,7 +27,7 @@ CELLS_IN_A_TILE = 4
 # six and more 966.
 LARGEST = 4 * CELLS_IN_A_TILE
 # Inputs of cells from which a value goes on in the same clock; all inputs of cells that are not named.
-SAME_CLOCK = {"TRELLIS_FF": (), "DP16KD": (), "DPR16X4": ("RAD",)}
+SAME_CLOCK = {"TRELLIS_FF": (), "DP16KD": (), "TRELLIS_DPR16X4": ("RAD",)}
 GATES = ("LUT4", "PFUMX", "L6MUX21")
 # A net with more readers says nothing of where its driver belongs, nor does a place where more chains meet.
 MANY_READERS, MANY_CHAINS = 8, 12
