@@ -13,6 +13,7 @@
 #include "frontend/step_registers.hpp"
 #include "frontend/step_values.hpp"
 #include "frontend/steps.hpp"
+#include "frontend/vocabulary.hpp"
 
 namespace epiline::frontend {
 
@@ -102,6 +103,13 @@ class graph_builder {
   void add_updates(std::vector<update>& updates, dataflow::register_id target, const Value* incoming,
                    const control_edge& along) {
     if (llvm::isa<llvm::UndefValue>(incoming)) return;
+    // State that a reset leaves alone, handed on by a step that runs after each reset: the register begins with it, and
+    // the step leaves it as it is.
+    if (const auto* number = llvm::cast_or_null<llvm::ConstantInt>(power_up_value(incoming))) {
+      graph_.registers[target].initial = number->getValue();
+      graph_.registers[target].resets = false;
+      return;
+    }
     const auto* merge = llvm::dyn_cast<llvm::PHINode>(incoming);
     if (merge != nullptr && merge->getParent() == along.from && !steps_.is_cut_phi(merge) &&
         along.from->getSingleSuccessor() != nullptr) {
