@@ -105,9 +105,8 @@ class graph_builder {
     if (llvm::isa<llvm::UndefValue>(incoming)) return;
     // State that a reset leaves alone, handed on by a step that runs after each reset: the register begins with it, and
     // the step leaves it as it is.
-    if (const auto* number = llvm::cast_or_null<llvm::ConstantInt>(power_up_value(incoming))) {
-      graph_.registers[target].initial = number->getValue();
-      graph_.registers[target].resets = false;
+    if (const llvm::Constant* number = power_up_value(incoming)) {
+      begin_with(target, {const_cast<llvm::Constant*>(number), true});
       return;
     }
     const auto* merge = llvm::dyn_cast<llvm::PHINode>(incoming);
@@ -161,12 +160,15 @@ class graph_builder {
       if (!steps_.is_cut_phi(value) || value->getParent() != first) values.push_back(value);
     for (const Instruction* instruction : values) {
       if (!registers_.has(instruction)) continue;
-      const start_value value = start_.value_of(instruction);
-      dataflow::register_state& state = graph_.registers[registers_.of(instruction)];
-      if (value.is_kept_at_reset) state.resets = false;
-      if (const auto* number = llvm::dyn_cast_or_null<llvm::ConstantInt>(value.number))
-        state.initial = number->getValue();
+      begin_with(registers_.of(instruction), start_.value_of(instruction));
     }
+  }
+
+  void begin_with(dataflow::register_id id, const start_value& value) {
+    dataflow::register_state& state = graph_.registers[id];
+    if (value.is_kept_at_reset) state.resets = false;
+    if (const auto* number = llvm::dyn_cast_or_null<llvm::ConstantInt>(value.number))
+      state.initial = number->getValue();
   }
 
   dataflow::graph& graph_;

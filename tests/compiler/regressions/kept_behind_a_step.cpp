@@ -1,6 +1,7 @@
-// epiline-hls: --clock 25ns
 // State that a reset leaves alone was refused where a step comes before the endless loop that has it: one that fills a
-// memory, all at once or a word at a time. That step runs after each reset and must not set the state.
+// memory, all at once or a word at a time. That it is there after a reset is tested by
+// test_kept_state.py.
+// epiline-hls: --clock 25ns
 #include <ap_int.h>
 #include <hls_stream.h>
 #include <hls_task.h>
